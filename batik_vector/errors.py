@@ -1,0 +1,105 @@
+"""What can go wrong, as one tree.
+
+    BatikError
+    ├ RecipeError (ValueError)        kawung.toml:12: motif.curve.n = 0, expected 1 to 48
+    │ └ UnknownNameError              "rosee": did you mean "rose"?
+    ├ GeometryError (ValueError)      a shape that cannot be built, in geometry's own words
+    │ ├ TornRingError                 a map would tear a ring at a branch cut or a pole
+    │ └ TooLargeError                 the work would not fit: says how large it would be
+    ├ SeamError                       opposite edges of a tile would not meet
+    └ ExportError
+      └ UnsupportedByFormatError      the format cannot hold what was asked
+
+Faces (the command, the notebook) catch ``BatikError`` and nothing else: any other exception is a
+defect of this program and shows its traceback.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from difflib import get_close_matches
+
+
+class BatikError(Exception):
+    """Base of every error this package raises on purpose."""
+
+    exit_code = 2
+
+
+@dataclass(frozen=True)
+class Fault:
+    """One thing wrong with a recipe: where it stands, what it says and what was expected."""
+
+    message: str
+    key: str = ""
+    source: str = ""
+    line: int | None = None
+
+    def __str__(self) -> str:
+        place = ":".join(str(part) for part in (self.source, self.line) if part not in ("", None))
+        return ": ".join(part for part in (place, self.key, self.message) if part)
+
+
+class RecipeError(BatikError, ValueError):
+    """A recipe that cannot be compiled; ``faults`` lists everything found wrong in one go."""
+
+    def __init__(self, faults: str | Sequence[Fault]) -> None:
+        self.faults: tuple[Fault, ...] = (Fault(faults),) if isinstance(faults, str) else tuple(faults)
+        super().__init__("\n".join(str(fault) for fault in self.faults))
+
+
+class UnknownNameError(RecipeError):
+    """A name that no catalogue knows; the message offers the nearest one that is known."""
+
+    def __init__(self, name: str, known: Sequence[str], what: str = "name") -> None:
+        super().__init__(unknown_name(name, known, what))
+
+
+class GeometryError(BatikError, ValueError):
+    """A shape or a map that cannot be built from the numbers given."""
+
+
+class TornRingError(GeometryError):
+    """A map that would tear a ring, or send a region to infinity."""
+
+
+class TooLargeError(GeometryError):
+    """Work refused before it is begun, because its estimate is past the limit."""
+
+
+class SeamError(BatikError):
+    """Opposite edges of a tile that would not meet."""
+
+    exit_code = 1
+
+
+class ExportError(BatikError):
+    """A file that could not be written."""
+
+
+class UnsupportedByFormatError(ExportError):
+    """Something the chosen format cannot hold."""
+
+
+def unknown_name(name: str, known: Sequence[str], what: str = "name") -> str:
+    """Return ``unknown WHAT "NAME"`` with the nearest known name, or all of them when none is near."""
+    near = get_close_matches(name.lower(), [k.lower() for k in known], n=1, cutoff=0.55)
+    if near:
+        right = next(k for k in known if k.lower() == near[0])
+        return f'unknown {what} "{name}": did you mean "{right}"?'
+    return f'unknown {what} "{name}": expected one of {", ".join(sorted(known))}'
+
+
+@contextmanager
+def blame(key: str) -> Iterator[None]:
+    """Name the recipe key on whose behalf the work inside is done, in any geometry error it raises."""
+    try:
+        yield
+    except RecipeError as error:
+        raise RecipeError(
+            [Fault(f.message, f"{key}.{f.key}" if f.key else key, f.source, f.line) for f in error.faults]
+        ) from error
+    except GeometryError as error:
+        raise RecipeError([Fault(str(error), key)]) from error

@@ -1,0 +1,131 @@
+"""What can be chosen of each format, with bounds and help. Importing it costs nothing heavy."""
+
+from __future__ import annotations
+
+import dataclasses
+import enum
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+from batik_vector.errors import UnknownNameError
+from batik_vector.fields import Between, Length, Says, check
+
+
+class Profile(enum.StrEnum):
+    """How marks become paths."""
+
+    EDITABLE = "editable"
+    """One path per mark, each with an id from its name: for work in a drawing program."""
+    COMPACT = "compact"
+    """One compound path per ink: for machines and for very many marks."""
+
+
+class Curves(enum.StrEnum):
+    """How curves are drawn."""
+
+    POLYLINE = "polyline"
+    """As the vertices of the artwork."""
+    BEZIER = "bezier"
+    """As cubic Béziers fitted to them: far fewer nodes."""
+
+
+class PdfInks(enum.StrEnum):
+    """How inks are named in a PDF."""
+
+    RGB = "rgb"
+    """Each ink is its screen colour."""
+    SPOT = "spot"
+    """Each ink is a separation with its own name, shown in its screen colour."""
+
+
+class DxfVersion(enum.StrEnum):
+    """Which DXF is written."""
+
+    R2000 = "R2000"
+    """AC1015: LWPOLYLINE and units. Read by everything of this century."""
+    R12 = "R12"
+    """AC1009: POLYLINE and VERTEX, no units. For old cutters."""
+
+
+CHOICES: dict[str, type[enum.StrEnum]] = {
+    "profile": Profile,
+    "curves": Curves,
+    "inks": PdfInks,
+    "version": DxfVersion,
+}
+
+
+def _settle(options: Any) -> None:
+    """Turn words into choices, so that ``curves="bezier"`` will do, and check the numbers.
+
+    Raises:
+        UnknownNameError: for a word that is no choice.
+        GeometryError: for a number out of bounds.
+    """
+    for name in CHOICES.keys() & {field.name for field in dataclasses.fields(options)}:
+        word, choices = getattr(options, name), CHOICES[name]
+        if word not in tuple(choices):
+            raise UnknownNameError(str(word), list(choices), name)
+        object.__setattr__(options, name, choices(word))
+    check(options)
+
+
+@dataclass(frozen=True)
+class SvgOptions:
+    """Options of SVG."""
+
+    profile: Annotated[Profile, Says("one path per mark (editable) or per ink (compact)")] = Profile.EDITABLE
+    curves: Annotated[Curves, Says("vertices as they are (polyline) or fitted Béziers (bezier)")] = (
+        Curves.POLYLINE
+    )
+    curve_tolerance: Annotated[
+        Length | None,
+        Between(0.0005, 10),
+        Says("how far fitted curves may stray; the artwork's tolerance if unset"),
+    ] = None
+    cloth: Annotated[bool, Says("show the cloth as a layer %cloth, which plotters skip")] = True
+
+    def __post_init__(self) -> None:
+        _settle(self)
+
+
+@dataclass(frozen=True)
+class PdfOptions:
+    """Options of PDF."""
+
+    curves: Annotated[Curves, Says("vertices as they are (polyline) or fitted Béziers (bezier)")] = (
+        Curves.POLYLINE
+    )
+    curve_tolerance: Annotated[
+        Length | None,
+        Between(0.0005, 10),
+        Says("how far fitted curves may stray; the artwork's tolerance if unset"),
+    ] = None
+    cloth: Annotated[bool, Says("show the cloth as a layer of its own")] = True
+    inks: Annotated[PdfInks, Says("inks as screen colours (rgb) or as named separations (spot)")] = (
+        PdfInks.RGB
+    )
+
+    def __post_init__(self) -> None:
+        _settle(self)
+
+
+@dataclass(frozen=True)
+class DxfOptions:
+    """Options of DXF."""
+
+    version: Annotated[DxfVersion, Says("R2000, or R12 for old cutters")] = DxfVersion.R2000
+
+    def __post_init__(self) -> None:
+        _settle(self)
+
+
+@dataclass(frozen=True)
+class PngOptions:
+    """Options of the PNG preview."""
+
+    dpi: Annotated[float, Between(1, 2400), Says("pixels per inch of cloth")] = 100.0
+    cloth: Annotated[bool, Says("paint the cloth; without it the ground is transparent")] = True
+
+    def __post_init__(self) -> None:
+        _settle(self)

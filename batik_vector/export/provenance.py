@@ -1,0 +1,238 @@
+"""Where a file comes from: written into every format, and read back from it.
+
+SVG and PDF hold it as XML under our namespace, readable to people; DXF and PNG as one line of ASCII
+(JSON, in base64 where a format gives characters meanings of its own). The recipe comes back as it was,
+to the character.
+
+Files to read come from strangers. XML with a DOCTYPE is refused, and with it every entity; sizes are
+bounded; nothing is run, and nothing else is opened.
+"""
+
+from __future__ import annotations
+
+import base64
+import binascii
+import json
+import re
+import zlib
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+from xml.parsers import expat
+
+from batik_vector.artwork import Provenance
+from batik_vector.errors import Fault, RecipeError
+from batik_vector.export.palette import xml_safe
+
+NAMESPACE = "urn:x-batik-vector:provenance"
+BASE64 = "-base64"
+DXF_MARK = "BATIK_VECTOR PROVENANCE 1"
+PNG_KEYWORD = b"batik_vector"
+MAX_FILE = 1 << 30
+MAX_RECIPE = 16 << 20
+"""Bytes of a file, and of the provenance in it, past which it is refused."""
+DXF_CHUNK = 240
+"""Characters in one DXF string; AutoCAD allows 255."""
+
+
+class _FoundError(Exception):
+    """Stops the parser once it has all it came for."""
+
+
+def xml_fields(provenance: Provenance) -> Iterator[tuple[str, str]]:
+    """Yield (element, text) for the XML formats; what XML cannot hold is base64 and named so."""
+    for name, value in (
+        ("version", provenance.version),
+        ("seed", str(provenance.seed)),
+        ("recipe", provenance.recipe),
+    ):
+        if xml_safe(value):
+            yield name, value
+        else:
+            yield name + BASE64, base64.b64encode(value.encode("utf-8", "surrogatepass")).decode("ascii")
+
+
+def ascii_line(provenance: Provenance) -> str:
+    """Return a provenance as one line of ASCII."""
+    return json.dumps(
+        {"version": provenance.version, "seed": provenance.seed, "recipe": provenance.recipe},
+        ensure_ascii=True,
+    )
+
+
+def ascii_chunks(provenance: Provenance) -> list[str]:
+    """Return a provenance as strings that DXF holds, the first of them the mark to know it by."""
+    line = base64.b64encode(ascii_line(provenance).encode("ascii")).decode("ascii")
+    return [DXF_MARK, *(line[at : at + DXF_CHUNK] for at in range(0, len(line), DXF_CHUNK))]
+
+
+def read_provenance(path: str | Path) -> Provenance:
+    """Return the recipe, seed and version that an SVG, PDF, DXF or PNG of ours carries.
+
+    Raises:
+        RecipeError: where the file cannot be read, or carries none.
+    """
+    path = Path(path)
+    try:
+        size = path.stat().st_size
+        if size > MAX_FILE:
+            raise _fault(path, f"{size:,} bytes is more than a compiled file has")
+        data = path.read_bytes()
+        found = _read(data)
+    except OSError as error:
+        raise _fault(path, error.strerror or str(error)) from error
+    except ValueError as error:
+        if isinstance(error, RecipeError):
+            raise
+        raise _fault(path, str(error)) from error
+    if found is None:
+        raise _fault(
+            path, "carries no recipe: it is no file of this program, or another program saved it since"
+        )
+    return found
+
+
+def _fault(path: Path, words: str) -> RecipeError:
+    return RecipeError([Fault(words, source=str(path))])
+
+
+def _read(data: bytes) -> Provenance | None:
+    if data.startswith(b"%PDF-"):
+        return _from_pdf(data)
+    if data.startswith(b"\x89PNG\r\n\x1a\n"):
+        return _from_png(data)
+    if data[:200].lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<"):
+        return _from_xml(data)
+    return _from_dxf(data)
+
+
+def _from_line(line: str) -> Provenance:
+    try:
+        values = json.loads(line)
+        recipe, seed, version = values["recipe"], values["seed"], values["version"]
+    except (ValueError, TypeError, KeyError, RecursionError):
+        raise ValueError("its provenance is damaged") from None
+    if not (isinstance(recipe, str) and isinstance(version, str) and isinstance(seed, int)):
+        raise ValueError("its provenance is damaged")
+    return Provenance(recipe, seed, version)
+
+
+class _XmlReader:
+    """Collects the elements of our namespace."""
+
+    def __init__(self) -> None:
+        self.values: dict[str, str] = {}
+        self._name = ""
+        self._parts: list[str] = []
+        self._length = 0
+
+    def parse(self, data: bytes) -> None:
+        parser = expat.ParserCreate(namespace_separator=" ")
+        parser.buffer_text = True
+        parser.StartDoctypeDeclHandler = self._doctype
+        parser.StartElementHandler = self._start
+        parser.EndElementHandler = self._end
+        parser.CharacterDataHandler = self._text
+        try:
+            parser.Parse(data, True)
+        except _FoundError:
+            pass
+        except expat.ExpatError as error:
+            raise ValueError(f"is no well-formed XML: {error}") from None
+
+    def _doctype(self, *_: object) -> None:
+        raise ValueError("has a DOCTYPE, which no compiled file has")
+
+    def _start(self, name: str, attributes: dict[str, str]) -> None:
+        space, _, local = name.rpartition(" ")
+        if space == NAMESPACE and local.removesuffix(BASE64) in ("recipe", "seed", "version"):
+            self._name, self._parts, self._length = local, [], 0
+
+    def _text(self, words: str) -> None:
+        if self._name:
+            self._length += len(words)
+            if self._length > MAX_RECIPE:
+                raise ValueError("its recipe is too long")
+            self._parts.append(words)
+
+    def _end(self, name: str) -> None:
+        if self._name and name == f"{NAMESPACE} {self._name}":
+            value = "".join(self._parts)
+            if self._name.endswith(BASE64):
+                value = base64.b64decode(value, validate=True).decode("utf-8", "surrogatepass")
+            self.values[self._name.removesuffix(BASE64)] = value
+            self._name = ""
+            if len(self.values) == 3:
+                raise _FoundError
+
+
+def _from_xml(data: bytes) -> Provenance | None:
+    reader = _XmlReader()
+    reader.parse(data)
+    values = reader.values
+    if "recipe" not in values:
+        return None
+    seed = values.get("seed", "0")
+    if not re.fullmatch(r"-?[0-9]{1,4000}", seed):
+        raise ValueError("its seed is no whole number")
+    return Provenance(values["recipe"], int(seed), values.get("version", ""))
+
+
+def _from_pdf(data: bytes) -> Provenance | None:
+    import io
+
+    import pikepdf
+
+    try:
+        with pikepdf.open(io.BytesIO(data)) as pdf:
+            stream: Any = pdf.Root.get("/Metadata")
+            if not isinstance(stream, pikepdf.Stream):
+                return None
+            raw, packing = stream.read_raw_bytes(), stream.get("/Filter")
+    except (pikepdf.PdfError, pikepdf.PasswordError) as error:
+        raise ValueError(f"is no readable PDF: {error}") from None
+    if packing == pikepdf.Name.FlateDecode:
+        raw = _inflate(raw)
+    elif packing is not None:
+        return None
+    return _from_xml(raw)
+
+
+def _inflate(raw: bytes) -> bytes:
+    machine = zlib.decompressobj()
+    try:
+        out = machine.decompress(raw, 2 * MAX_RECIPE)
+    except zlib.error:
+        raise ValueError("its metadata is damaged") from None
+    if machine.unconsumed_tail:
+        raise ValueError("its recipe is too long")
+    return out
+
+
+def _from_png(data: bytes) -> Provenance | None:
+    at = 8
+    while at + 12 <= len(data):
+        length, kind = int.from_bytes(data[at : at + 4], "big"), data[at + 4 : at + 8]
+        if kind == b"tEXt" and data[at + 8 : at + 8 + length].startswith(PNG_KEYWORD + b"\0"):
+            body = data[at + 8 + len(PNG_KEYWORD) + 1 : at + 8 + length]
+            return _from_line(body.decode("latin-1"))
+        at += 12 + length
+    return None
+
+
+def _from_dxf(data: bytes) -> Provenance | None:
+    at = data.find(DXF_MARK.encode("ascii"))
+    if at < 0:
+        return None
+    lines = data[at : at + 2 * MAX_RECIPE].splitlines()
+    chunks = []
+    # Pairs of lines follow: a group code, then its value; strings have code 1, or 1000 in extended data.
+    for code, value in zip(lines[1::2], lines[2::2], strict=False):
+        if code.strip() not in (b"1", b"1000"):
+            break
+        chunks.append(value.strip())
+    try:
+        line = base64.b64decode(b"".join(chunks), validate=True).decode("ascii")
+    except (binascii.Error, UnicodeDecodeError):
+        raise ValueError("its provenance is damaged") from None
+    return _from_line(line)

@@ -1,0 +1,572 @@
+"""Cubic Béziers through polylines: tens of nodes that a designer can edit, in place of thousands.
+
+Schneider's least squares (Graphics Gems, 1990, "An algorithm for automatically fitting digitized
+curves"), for all spans of all polylines at once. What differs from his paper:
+
+* A polyline is first cut into *stretches*: straight edges, and smooth runs between corners.
+* Every smooth run has a *smooth interpretation*: the tangents of a high-order difference through its
+  vertices, and over every chord the cubic arc between them. It is what is fitted and checked against,
+  in the vertices and between them.
+* A run is not halved until it fits: its joints are placed so that all of its spans err alike, as few as
+  keep the tolerance. A cubic's error grows as the sixth power of its length, so that a span of error e
+  counts for (e / tolerance)^⅙ spans.
+
+Inside, points are complex numbers: a dot product is ``(a.conjugate() * b).real``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from batik_vector.errors import GeometryError
+from batik_vector.geometry.sampling import Array, Indices, Points, thin
+
+Mask: TypeAlias = NDArray[np.bool_]
+Complex: TypeAlias = NDArray[np.complex128]
+
+SAMPLING = 0.02
+"""Chord height (mm) that sampled curves are expected to have at most; polygons have far larger ones."""
+
+FLAT = 0.001
+"""Vertices this close (mm) to a line through others say nothing: the grid that geometry is kept on."""
+
+CORNER = 0.62
+"""A turn sharper than this (radians) is a corner: the circle of 12 vertices turns by 0.52, an octagon by
+0.79. Only details whose chords would stand off no more than ``SAMPLING`` may turn faster."""
+
+SUDDEN = 2.2
+"""A turn this many times what the turns beside it lead to expect is a corner."""
+
+STRAIGHT = 4.0
+"""An edge is straight when an arc of its ends' turns would stand off this many times more than its
+neighbours', or than ``SAMPLING`` by a little more."""
+
+ALIKE = 1.25
+"""Turns and edges that differ by less than this factor are those of a regular polygon: a circle's."""
+
+SPAN_TURN = 2.6
+"""No cubic is asked to turn by more (radians)."""
+
+ROUNDS = 5
+HALVINGS = 32
+
+
+@dataclass(frozen=True)
+class Cubics:
+    """Cubic Béziers of several paths, in drawing order.
+
+    ``points`` has shape (m, 4, 2), the control points in mm; path i is
+    ``points[offsets[i]:offsets[i + 1]]`` with ``offsets`` of shape (k + 1,). Where ``straight``, shape
+    (m,), the control points divide a line into thirds.
+    """
+
+    points: Points
+    offsets: Indices
+    straight: Mask
+
+
+@dataclass(frozen=True)
+class _Lines:
+    """Polylines without their useless vertices; a ring's first vertex is not repeated.
+
+    One item per vertex, and per edge from it to ``after``; the last vertex of an open line has an edge
+    of length 0 and follows itself.
+    """
+
+    at: Complex
+    line: Indices
+    before: Indices
+    after: Indices
+    length: Array
+    heading: Array
+    turn: Array
+    end: Mask
+
+
+@dataclass(frozen=True)
+class _Runs:
+    """Smooth stretches: items are their vertices, each stretch with both of its ends.
+
+    ``dense`` holds every vertex and after it the middle of the smooth interpretation of the edge that
+    leaves it; ``travel`` the arc length there. ``rise`` and ``fall`` are the slopes of the
+    interpretation over its chord, ``first`` and ``edges`` belong to stretches.
+    """
+
+    dense: Complex
+    travel: Array
+    tangent: Complex
+    chord: Complex
+    rise: Array
+    fall: Array
+    bend: Array
+    first: Indices
+    edges: Indices
+
+
+def fit_cubics(coords: Points, offsets: Indices, closed: Mask, tolerance: float) -> Cubics:
+    """Fit cubic Béziers to polylines and rings.
+
+    Corners stay nodes and long straight edges stay straight; all other joints share their tangent. The
+    fit keeps within the tolerance of every vertex, and between vertices of the smooth curve that they
+    suggest: it stands off the polyline by no more than the tolerance beyond the chord's own height, and
+    by no more than 1.5 times the tolerance where that height is below the tolerance.
+
+    Args:
+        coords: shape (n, 2), mm: vertices on smooth curves and corners between, line after line.
+        offsets: shape (k + 1,): line i is ``coords[offsets[i]:offsets[i + 1]]``.
+        closed: shape (k,): which lines are rings; these repeat their first point at the end.
+        tolerance: mm. Fewer cubics the larger it is, as its sixth root.
+
+    Returns:
+        The cubics. Neighbours share end points bit for bit. A ring ends where it begins, which is at
+        its first corner if it has one. A line without length has no cubics.
+
+    Raises:
+        GeometryError: for coordinates or a tolerance that no fit can serve.
+    """
+    if not (np.isfinite(coords).all() and 0 < tolerance < np.inf):
+        raise GeometryError("cannot fit curves to coordinates that are not finite, or without a tolerance")
+    closed = np.asarray(closed, bool)
+    lines = _lines(*_useful(coords, np.asarray(offsets, np.intp), closed, tolerance), closed)
+    path, start, stop, smooth_ring = _stretches(lines, closed, _breaks(lines, tolerance))
+    # A stretch of one edge has no vertices to bend it.
+    bent = stop - start > 1
+    runs = _runs(lines, path, start, stop, bent, smooth_ring)
+    a, b, handles, failed = _fit_runs(runs, tolerance)
+    position = _ranges(start[bent], runs.edges + 1)
+    begin = np.concatenate([start[~bent], position[a]])
+    order = np.argsort(begin)
+    head, tail = lines.at[path[begin]], lines.at[path[np.concatenate([stop[~bent], position[b]])]]
+    straight = np.concatenate([np.ones(len(begin) - len(a), bool), failed])
+    points = np.column_stack([head, (head * 2 + tail) / 3, (head + tail * 2) / 3, tail])
+    curve = np.flatnonzero(~straight)
+    points[curve, 1:3] = handles[~failed]
+    count = np.bincount(lines.line[path[begin]], minlength=len(closed))
+    return Cubics(
+        np.stack([points.real, points.imag], axis=-1)[order],
+        np.concatenate([[0], np.cumsum(count)]).astype(np.intp),
+        straight[order],
+    )
+
+
+def _ranges(start: Indices, size: Indices) -> Indices:
+    """Return the indices of ranges one after another."""
+    skip = np.cumsum(size) - size
+    return np.arange(int(size.sum())) + np.repeat(start - skip, size)
+
+
+def _wrap(angle: Array) -> Array:
+    return (angle + np.pi) % (2 * np.pi) - np.pi
+
+
+def _useful(coords: Points, offsets: Indices, closed: Mask, tolerance: float) -> tuple[Complex, Indices]:
+    """Return the vertices that say something and their lines: none repeated, none on a straight edge."""
+    line = np.repeat(np.arange(len(closed)), np.diff(offsets))
+    at = np.ascontiguousarray(coords, float).view(complex).ravel()
+    new = np.ones(len(at), bool)
+    new[1:] = (at[1:] != at[:-1]) | (line[1:] != line[:-1])
+    at, line = at[new], line[new]
+    if not len(at):
+        return at, line
+    flat = min(FLAT, tolerance / 5)
+    bounds = np.flatnonzero(np.r_[True, line[1:] != line[:-1], True])
+    keep = thin(at.view(float).reshape(-1, 2), bounds, flat)
+    head, tail = bounds[:-1], bounds[1:] - 1
+    ring = closed[line[head]] & (at[head] == at[tail])
+    keep[tail[ring]] = False
+    size = np.add.reduceat(keep.astype(np.intp), head)
+    # A ring may begin amid a straight edge.
+    kept, last = np.flatnonzero(keep), np.cumsum(size) - 1
+    some = ring & (size > 3)
+    first = last[some] - size[some] + 1
+    before, after = at[kept[last[some]]], at[kept[first + 1]]
+    way, off = after - before, at[head[some]] - before
+    part = (way.conj() * off).real / np.maximum(np.abs(way) ** 2, 1e-300)
+    keep[head[some][(np.abs(off - way * part) <= flat) & (0 < part) & (part < 1)]] = False
+    keep &= np.repeat(size > 1, np.diff(bounds))
+    return at[keep], line[keep]
+
+
+def _lines(at: Complex, line: Indices, closed: Mask) -> _Lines:
+    here = np.arange(len(at))
+    first = np.searchsorted(line, line, "left")
+    last = np.searchsorted(line, line, "right") - 1
+    ring = closed[line]
+    before = np.where(here > first, here - 1, np.where(ring, last, here))
+    after = np.where(here < last, here + 1, np.where(ring, first, here))
+    edge = at[after] - at
+    heading = np.angle(edge)
+    end = (before == here) | (after == here)
+    turn = np.where(end, 0.0, _wrap(heading - heading[before]))
+    return _Lines(at, line, before, after, np.abs(edge), heading, turn, end)
+
+
+def _breaks(lines: _Lines, tolerance: float) -> Mask:
+    """Return the vertices at which smooth stretches end: corners, and the ends of straight edges."""
+    before, after, length = lines.before, lines.after, lines.length
+    turn = np.abs(lines.turn)
+    scale = max(tolerance, SAMPLING)
+    fine = (turn * np.maximum(length, length[before]) <= 12 * scale) & (turn < 1.4)
+    fine &= np.maximum(turn[before], turn[after]) > turn / 2
+    hard = lines.end | ((turn > CORNER) & ~fine)
+    regular = _regular(lines)
+    straight = _straight(lines, hard, scale) & ~regular
+    hard |= straight | straight[before]
+    # What the bending of the neighbours leads to expect; hard ones have none to tell.
+    bending = turn / np.maximum((length + length[before]) / 2, 1e-300)
+    left = np.where(hard[before], bending[after], bending[before])
+    right = np.where(hard[after], bending[before], bending[after])
+    lonely = hard[before] & hard[after]
+    expected = (left * length[before] + right * length) / 2
+    noise = 0.02 + FLAT / np.maximum(np.minimum(length, length[before]), 1e-300)
+    sudden = (turn > SUDDEN * expected + noise) & ~lonely & ~(regular & regular[before])
+    return np.asarray(hard | sudden)
+
+
+def _straight(lines: _Lines, hard: Mask, scale: float) -> Mask:
+    """Return the edges too long for the turns at their ends to be those of a sampled curve."""
+    before, after = lines.before, lines.after
+    turn = np.where(hard, np.inf, np.abs(lines.turn))
+    bounded = hard & hard[after]
+    height = np.where(bounded, 0.0, lines.length * np.minimum(turn, turn[after]) / 8)
+    further, nearer = np.where(before == before[before], 0.0, height[before[before]]), height[before]
+    usual = np.maximum(
+        np.maximum(np.where(before == np.arange(len(before)), 0.0, nearer), further),
+        np.maximum(height[after], height[after[after]]),
+    )
+    return bounded | (height > np.maximum(STRAIGHT * np.minimum(usual, 1.25 * scale), scale / 2))
+
+
+def _regular(lines: _Lines) -> Mask:
+    """Return the edges that look like those of a regular polygon, with their neighbours."""
+    before, after = lines.before, lines.after
+    lengths = np.stack([lines.length[before], lines.length, lines.length[after]])
+    turns = np.stack([lines.turn[before], lines.turn, lines.turn[after], lines.turn[after[after]]])
+    turns *= np.sign(lines.turn)
+    alike = lengths.max(axis=0) <= ALIKE * lengths.min(axis=0)
+    alike &= turns.max(axis=0) <= ALIKE * turns.min(axis=0)
+    return np.asarray(alike & (turns.max(axis=0) <= CORNER) & ~lines.end)
+
+
+def _stretches(lines: _Lines, closed: Mask, breaks: Mask) -> tuple[Indices, Indices, Indices, Mask]:
+    """Return the drawing order, rings begun at their first break, and the stretches between breaks.
+
+    Returns:
+        ``path``: vertices in drawing order, a ring's first repeated at its end; the first and last
+        position in it of every stretch; and which stretches are whole rings without a break.
+    """
+    size = np.bincount(lines.line, minlength=len(closed))
+    first = np.cumsum(size) - size
+    index = np.flatnonzero(breaks)
+    at = np.searchsorted(index, first)
+    begin = np.append(index, -1)[np.minimum(at, len(index))]
+    broken = (begin >= first) & (begin < first + size)
+    shift = np.where(broken & closed, begin - first, 0)
+    long = size + (closed & (size > 0))
+    local = _ranges(np.zeros(len(size), np.intp), long)
+    path = np.repeat(first, long) + (local + np.repeat(shift, long)) % np.repeat(np.maximum(size, 1), long)
+    node = breaks[path] | (local == 0)
+    final = local == np.repeat(long, long) - 1
+    stop = np.flatnonzero((node | final) & (local > 0))
+    start = np.flatnonzero(node & ~final)
+    return path, start, stop, (closed & ~broken)[lines.line[path[start]]]
+
+
+def _runs(
+    lines: _Lines, path: Indices, start: Indices, stop: Indices, bent: Mask, smooth_ring: Mask
+) -> _Runs:
+    """Give the bent stretches their smooth interpretation."""
+    edges = stop[bent] - start[bent]
+    size = edges + 1
+    vertex = path[_ranges(start[bent], size)]
+    first = np.cumsum(size) - size
+    last = first + edges
+    at = lines.at[vertex]
+    chord, bend = lines.at[lines.after[vertex]] - at, np.abs(lines.turn)[vertex]
+    chord[last] = 0
+    local = np.arange(len(at)) - np.repeat(first, size)
+    heading = _headings(at, bend, local, np.repeat(edges, size), np.repeat(smooth_ring[bent], size))
+    single = np.zeros(len(lines.at), bool)
+    single[path[start[~bent]]] = True
+    for end, edge, inner in (
+        (first, lines.before[vertex[first]], lines.heading[vertex[first]]),
+        (last, vertex[last], lines.heading[vertex[last - 1]]),
+    ):
+        # A straight edge that the curve leaves or meets without a kink gives it its tangent.
+        kink = np.abs(_wrap(heading[end] - lines.heading[edge]))
+        smooth = single[edge] & (kink <= 0.35 * np.abs(_wrap(inner - lines.heading[edge])) + 0.01)
+        heading[end[smooth]] = lines.heading[edge[smooth]]
+    angle = np.angle(chord)
+    rise = 2 * np.tan(np.clip(_wrap(heading - angle), -1.4, 1.4) / 2)
+    fall = 2 * np.tan(np.clip(_wrap(angle - np.roll(heading, -1)), -1.4, 1.4) / 2)
+    rise[last] = fall[last] = 0
+    arc = np.abs(chord) * (1 + (rise**2 + fall**2) / 12)
+    travel = np.cumsum(arc) - arc
+    middle = at + chord * (0.5 + 0.125j * (rise + fall))
+    dense = np.column_stack([at, middle]).ravel()
+    travel = np.column_stack([travel, travel + arc / 2]).ravel()
+    bend = np.abs(np.where(np.abs(chord) > 0, rise + fall, 0))
+    return _Runs(dense, travel, np.exp(1j * heading), chord, rise, fall, bend, first, edges)
+
+
+def _headings(at: Complex, bend: Array, local: Indices, edges: Indices, ring: Mask) -> Array:
+    """Return the direction of the curve in its vertices.
+
+    A chord's direction is nearly the mean of the curve's along it: the integral of the direction is
+    known in the vertices, and its derivative by Lagrange's formula through up to five of them is the
+    direction there. Where vertices are dense, every second or fourth is taken, to see past rounding.
+    """
+    origin = np.arange(len(at)) - local
+    total, travel = np.cumsum(bend), np.cumsum(np.abs(np.diff(at, prepend=at[:1])))
+    stride = np.ones(len(at), np.intp)
+    for step in (2, 4):
+        low = origin + np.clip(local - 2 * step, 0, np.maximum(edges - 4 * step, 0))
+        high = np.minimum(low + 4 * step, origin + edges)
+        turned, length = total[high] - total[low], (travel[high] - travel[low]) / (4 * step)
+        dense = (turned < 0.5) & (turned * length < 80 * step * FLAT) & (length < 2000 * FLAT)
+        stride[dense & (edges >= 5 * step)] = step
+    before, behind = local // stride, (edges - local) // stride
+    place = np.where(ring, 2, np.clip(2, 4 - behind, before))
+    place = np.where(~ring & (edges < 5), np.minimum(local, 4), place)
+    index = local[:, None] + (np.arange(5) - place[:, None]) * stride[:, None]
+    valid = ring[:, None] | ((index >= 0) & (index <= edges[:, None]))
+    index = np.where(ring[:, None], index % edges[:, None], np.clip(index, 0, edges[:, None]))
+    point = at[origin[:, None] + index]
+    step_ = np.diff(point, axis=1)
+    length, angle = np.abs(step_), np.angle(step_)
+    angle[:, 1:] = np.cumsum(_wrap(np.diff(angle, axis=1)), axis=1)
+    base = angle[:, 0].copy()
+    angle[:, 0] = 0
+    return base + _derivative(length, angle, place, valid)
+
+
+def _derivative(length: Array, angle: Array, place: Indices, valid: Mask) -> Array:
+    """Return the derivative, at one of five places, of the integral of ``angle`` over ``length``."""
+    zero = np.zeros((len(length), 1))
+    way = np.hstack([zero, np.cumsum(length, axis=1)])
+    value = np.hstack([zero, np.cumsum(length * angle, axis=1)])
+    row = np.arange(len(way))
+    way -= way[row, place][:, None]
+    value -= value[row, place][:, None]
+    use = valid & (np.arange(5) != place[:, None])
+    result = np.zeros(len(way))
+    for j in range(5):
+        with np.errstate(divide="ignore", invalid="ignore"):
+            factor = way / (way - way[:, j : j + 1])
+            slope = value[:, j] / way[:, j]
+        other = use & (np.arange(5) != j)
+        result += np.where(use[:, j], slope * np.where(other, factor, 1.0).prod(axis=1), 0.0)
+    # No wilder than a straight line through the directions of the two nearest chords allows.
+    near = np.clip(place - 1, 0, np.minimum(valid.sum(axis=1) - 3, 2))
+    middle = way[:, :4] + length / 2
+    m0, m1, a0, a1 = middle[row, near], middle[row, near + 1], angle[row, near], angle[row, near + 1]
+    guess = a0 - (a1 - a0) * m0 / (m1 - m0)
+    return np.clip(result, guess - np.abs(a1 - a0) / 2, guess + np.abs(a1 - a0) / 2)
+
+
+def _fit_runs(runs: _Runs, tolerance: float) -> tuple[Indices, Indices, Complex, Mask]:
+    """Fit all runs.
+
+    Returns:
+        For every span in drawing order: its first and last vertex, its two handles, shape (s, 2), and
+        whether it was given up: only spans of one edge are, which then are straight.
+    """
+    weight = _weights(runs, tolerance)
+    joint = _joints(runs, weight, tolerance)
+    todo_a, todo_b = _spans(runs, joint, np.ones(len(runs.first), bool))
+    done: list[tuple[Indices, Indices, Complex, Mask]] = []
+    while len(todo_a):
+        handles, error = _fit(runs, todo_a, todo_b, tolerance)
+        bad = error > 1
+        stay = ~bad | (todo_b - todo_a == 1)
+        done.append((todo_a[stay], todo_b[stay], handles[stay], bad[stay]))
+        a, b = todo_a[~stay], todo_b[~stay]
+        total = np.cumsum(weight)
+        half = np.searchsorted(total, (total[a] - weight[a] + total[b - 1]) / 2) 
+        half = np.clip(half, a + 1, b - 1)
+        todo_a, todo_b = np.concatenate([a, half]), np.concatenate([half, b])
+    if not done:
+        return runs.first, runs.first, np.empty((0, 2), complex), np.empty(0, bool)
+    a, b, handles, bad = (np.concatenate(parts) for parts in zip(*done, strict=True))
+    order = np.argsort(a)
+    return a[order], b[order], handles[order], bad[order]
+
+
+def _weights(runs: _Runs, tolerance: float) -> Array:
+    """Return how many spans each edge should need: an arc of angle θ is missed by about 2e-5·r·θ⁶."""
+    length = np.abs(runs.chord)
+    need = (2e-5 * length / tolerance) ** (1 / 6) * runs.bend ** (5 / 6)
+    # Inflections bend too little to count, yet have length.
+    return np.maximum(need, runs.bend / SPAN_TURN) + 1e-6 * length / tolerance
+
+
+def _joints(runs: _Runs, weight: Array, tolerance: float) -> Mask:
+    """Choose the vertices where spans meet, so that the spans of a run err alike and are few."""
+    owner = np.repeat(np.arange(len(runs.first)), runs.edges + 1)
+    joint = np.zeros(len(owner), bool)
+    best = np.full(len(runs.first), np.iinfo(np.intp).max)
+    count = np.ceil(np.bincount(owner, weight, len(best)) - 1e-6).astype(np.intp)
+    active = np.ones(len(best), bool)
+    for turn in range(ROUNDS):
+        if not active.any():
+            break
+        trial = _place(runs, owner, weight, count)
+        a, b = _spans(runs, trial, active)
+        _, error = _fit(runs, a, b, tolerance)
+        run = owner[a]
+        worst = np.zeros(len(best))
+        np.maximum.at(worst, run, error)
+        spans = np.bincount(run, minlength=len(best))
+        better = active & (worst <= 1) & (spans < best)
+        # The first trial is kept in any case, and every later one of runs that have not fitted yet.
+        take = active & (better | (best == np.iinfo(np.intp).max))
+        joint = np.where(take[owner], trial, joint)
+        best = np.where(better, spans, best)
+        turned = np.add.reduceat(runs.bend[_ranges(a, b - a)], np.cumsum(b - a) - (b - a))
+        need = np.maximum(np.clip(error, 1e-3, 1e3) ** (1 / 6), turned / SPAN_TURN)
+        weight = weight.copy()
+        total = np.add.reduceat(weight[_ranges(a, b - a)], np.cumsum(b - a) - (b - a))
+        weight[_ranges(a, b - a)] *= np.repeat(need / total, b - a)
+        wanted = np.ceil(1.02 * np.bincount(run, need, len(best))).astype(np.intp)
+        fits = worst <= 1
+        count = np.where(fits, np.minimum(wanted, spans - 1), np.maximum(wanted, spans + (turn > 0)))
+        active &= (count >= 1) & (count < best) & (~fits | (wanted < spans))
+    return joint
+
+
+def _place(runs: _Runs, owner: Indices, weight: Array, count: Indices) -> Mask:
+    """Divide every run into its count of spans of equal weight, at the vertices nearest to that."""
+    total = np.cumsum(weight)
+    base = (total - weight)[runs.first]
+    whole = total[runs.first + runs.edges] - base
+    share = (total - weight / 2 - base[owner]) / whole[owner]
+    bucket = np.floor(share * count[owner] + 1e-6)
+    joint = np.zeros(len(weight), bool)
+    joint[1:] = bucket[1:] > bucket[:-1]
+    joint[runs.first] = joint[runs.first + runs.edges] = True
+    return joint
+
+
+def _spans(runs: _Runs, joint: Mask, active: Mask) -> tuple[Indices, Indices]:
+    """Return the first and last vertices of the spans between joints, of the active runs."""
+    on = np.repeat(active, runs.edges + 1) & joint
+    last = np.zeros(len(joint), bool)
+    last[runs.first + runs.edges] = True
+    first = np.zeros(len(joint), bool)
+    first[runs.first] = True
+    return np.flatnonzero(on & ~last), np.flatnonzero(on & ~first)
+
+
+FITS = 3
+"""Least squares solutions, each followed by one Newton step towards the nearest parameters."""
+
+ALONG = 0.01
+"""Weight of errors along the curve against errors across it, once the parameters are near: only the
+latter are errors, but where the curve is straight nothing else would place the handles."""
+
+
+def _fit(runs: _Runs, a: Indices, b: Indices, tolerance: float) -> tuple[Complex, Array]:
+    """Fit one cubic to each span from vertex ``a`` to vertex ``b``.
+
+    Returns:
+        The two handles, shape (s, 2), and the error in tolerances, shape (s,).
+    """
+    size = 2 * (b - a) + 1
+    at, own, head = _ranges(2 * a, size), np.repeat(np.arange(len(a)), size), np.cumsum(size) - size
+    data, travel = runs.dense[at], runs.travel[2 * b] - runs.travel[2 * a]
+    u = (runs.travel[at] - runs.travel[2 * a][own]) / travel[own]
+    u[head + size - 1] = 1.0
+    ends = runs.dense[2 * a], runs.dense[2 * b]
+    out, into = runs.tangent[a], -runs.tangent[b]
+    frame: Complex = np.ones(len(at), complex)
+    for fit in range(FITS):
+        one, two = _lengths(data, u, own, head, ends, (out, into), frame, 1.0 if fit == 0 else ALONG)
+        bad = ~((one > 0.02 * travel) & (one < 1.2 * travel) & (two > 0.02 * travel) & (two < 1.2 * travel))
+        one, two = np.where(bad, travel / 3, one), np.where(bad, travel / 3, two)
+        handles = np.stack([ends[0] + one * out, ends[1] + two * into])
+        power = _powers(ends[0], handles[0], handles[1], ends[1])
+        u, frame = _newton(power[:, own], data, u)
+    error = _error(runs, power, at, own, u, tolerance)
+    return handles.T, np.maximum.reduceat(error, head)
+
+
+def _lengths(
+    data: Complex,
+    u: Array,
+    own: Indices,
+    head: Indices,
+    ends: tuple[Complex, Complex],
+    tangents: tuple[Complex, Complex],
+    frame: Complex,
+    along: float,
+) -> tuple[Array, Array]:
+    """Solve for the lengths of both handles: Schneider's 2×2 normal equations, one pair per span.
+
+    Errors are measured in the frame of the curve's unit tangents: all across it, ``along`` of the rest.
+    """
+    v = 1 - u
+    late = u * u * (3 - 2 * u)
+    rest = data - (ends[0][own] * (1 - late) + ends[1][own] * late)
+    frame = frame.conj()
+    one, two, rest = frame * tangents[0][own], frame * tangents[1][own], frame * rest
+    one *= 3 * u * v * v
+    two *= 3 * u * u * v
+
+    def dot(p: Complex, q: Complex) -> Array:
+        return np.asarray(p.imag * q.imag + along * (p.real * q.real))
+
+    rows = np.stack([dot(one, one), dot(one, two), dot(two, two), dot(one, rest), dot(two, rest)])
+    s11, s12, s22, r1, r2 = np.add.reduceat(rows, head, axis=1)
+    det = s11 * s22 - s12 * s12
+    with np.errstate(divide="ignore", invalid="ignore"):
+        first, second = (r1 * s22 - r2 * s12) / det, (r2 * s11 - r1 * s12) / det
+    good = det > 1e-12 * s11 * s22
+    return np.where(good, first, np.nan), np.where(good, second, np.nan)
+
+
+def _powers(p0: Complex, p1: Complex, p2: Complex, p3: Complex) -> Complex:
+    """Return the coefficients of 1, u, u², u³."""
+    return np.stack([p0, 3 * (p1 - p0), 3 * (p0 - 2 * p1 + p2), p3 - p0 + 3 * (p1 - p2)])
+
+
+def _newton(power: Complex, data: Complex, u: Array) -> tuple[Array, Complex]:
+    """Move parameters towards the points nearest to the data; return them and the unit tangents there."""
+    c0, c1, c2, c3 = power
+    off = c0 + u * (c1 + u * (c2 + u * c3)) - data
+    speed = c1 + u * (2 * c2 + u * (3 * c3))
+    force = 2 * c2 + u * (6 * c3)
+    square = speed.real**2 + speed.imag**2
+    slope = square + (force.conj() * off).real
+    step = (speed.conj() * off).real / np.where(slope > square / 4, slope, np.maximum(square, 1e-300))
+    u = np.where((u > 0) & (u < 1), np.clip(u - step, 1e-9, 1 - 1e-9), u)
+    speed = c1 + u * (2 * c2 + u * (3 * c3))
+    return u, speed / np.maximum(np.abs(speed), 1e-300)
+
+
+def _error(runs: _Runs, power: Complex, at: Indices, own: Indices, u: Array, tolerance: float) -> Array:
+    """Return the error in tolerances at every datum and between it and the next.
+
+    The data (vertices and the middles between) must be near the curve, and the curve between data near
+    the smooth interpretation of its edge, and near the edge itself.
+    """
+    c0, c1, c2, c3 = power[:, own]
+    error = np.abs(c0 + u * (c1 + u * (c2 + u * c3)) - runs.dense[at]) / tolerance
+    i = np.flatnonzero(own[1:] == own[:-1])
+    half = (u[i] + u[i + 1]) / 2
+    edge = at[i] // 2
+    point = c0[i] + half * (c1[i] + half * (c2[i] + half * c3[i])) - runs.dense[2 * edge]
+    chord, rise, fall = runs.chord[edge], runs.rise[edge], runs.fall[edge]
+    length = np.abs(chord)
+    point = point * chord.conj() / length
+    f = np.clip(point.real / length, 0, 1)
+    beyond = np.abs(point.real - f * length)
+    off = np.hypot(beyond, point.imag - length * f * (1 - f) * (rise * (1 - f) + fall * f)) / tolerance
+    height = length * (np.abs(rise) + np.abs(fall)) / 8
+    allowed = tolerance / 2 + np.maximum(tolerance / 2 + np.minimum(height, tolerance / 2), height)
+    off = np.maximum(off, np.hypot(beyond, point.imag) / allowed)
+    error[i] = np.maximum(error[i], np.where(u[i + 1] > u[i], off, 1e3))
+    return error

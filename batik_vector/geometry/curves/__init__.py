@@ -1,0 +1,45 @@
+"""Curves: the catalogue. A new curve is a file beside this one and a line in ``CURVES``."""
+
+from __future__ import annotations
+
+from batik_vector.geometry.curves.base import Curve, Trace, trace
+from batik_vector.geometry.curves.circle import Circle
+from batik_vector.geometry.curves.function import FunctionCurve, polar
+from batik_vector.geometry.curves.harmonic import Parametric, Polar
+from batik_vector.geometry.curves.hypocycloid import Hypocycloid
+from batik_vector.geometry.curves.polygon import Polygon, Star
+from batik_vector.geometry.curves.rose import Petal, Rose
+from batik_vector.geometry.curves.spiral import Spiral
+from batik_vector.geometry.curves.superellipse import Superellipse
+
+CURVES: dict[str, type[Curve]] = {
+    "superellipse": Superellipse,
+    "rose": Rose,
+    "petal": Petal,
+    "hypocycloid": Hypocycloid,
+    "circle": Circle,
+    "polygon": Polygon,
+    "star": Star,
+    "polar": Polar,
+    "parametric": Parametric,
+    "spiral": Spiral,
+}
+
+__all__ = [
+    "CURVES",
+    "Circle",
+    "Curve",
+    "FunctionCurve",
+    "Hypocycloid",
+    "Parametric",
+    "Petal",
+    "Polar",
+    "Polygon",
+    "Rose",
+    "Spiral",
+    "Star",
+    "Superellipse",
+    "Trace",
+    "polar",
+    "trace",
+]

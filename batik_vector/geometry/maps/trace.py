@@ -1,0 +1,102 @@
+"""Images of chains: refined by the image's error, then thinned to what the tolerance needs."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from batik_vector.geometry.maps.affine import Complexes
+from batik_vector.geometry.maps.chains import Angles, Chains
+from batik_vector.geometry.maps.flame import FlameMap, Tolerance
+from batik_vector.geometry.sampling import REFINE_SHARE, Array, Indices, Points, refine, thin
+
+__all__ = ["Traced", "trace_images"]
+
+
+@dataclass(frozen=True)
+class Traced:
+    """Dense images of chains, in chain order, and which of their vertices the tolerance needs.
+
+    ``image``: all vertices; chain i is ``image[offsets[i]:offsets[i + 1]]``; ``keep``: the mask.
+    """
+
+    image: Complexes
+    offsets: Indices
+    keep: NDArray[np.bool_]
+
+    def chain(self, i: int, dense: bool = False) -> Complexes:
+        """Return one image."""
+        part = slice(self.offsets[i], self.offsets[i + 1])
+        return self.image[part] if dense else self.image[part][self.keep[part]]
+
+    def thinned(self) -> tuple[Complexes, Indices]:
+        """Return the vertices kept, and their offsets."""
+        counts = np.concatenate([[0], np.cumsum(self.keep)])
+        return self.image[self.keep], counts[self.offsets]
+
+
+def trace_images(
+    flame: FlameMap,
+    chains: Chains,
+    angles: Angles | None,
+    branch: int,
+    tolerance: Tolerance,
+    thinning: bool = True,
+) -> Traced:
+    """Return the images of chains under the core of a map (neither pre nor post) on one branch.
+
+    Args:
+        flame: the map.
+        chains: as :func:`~batik_vector.geometry.maps.chains.prepare` left them.
+        angles: their unwrapped angles; None where no term has a branch cut.
+        branch: of the sum.
+        tolerance: of the image, before post.
+        thinning: False leaves the dense polyline; so does a tolerance that varies.
+    """
+    z = chains.z
+    step = np.empty_like(z)
+    step[:-1] = z[1:] - z[:-1]
+    middle = None if angles is None else angles.middle
+
+    def evaluate(piece: Indices, t: Array) -> Points:
+        point = z[piece] + step[piece] * t
+        angle = None
+        if middle is not None:
+            angle = np.angle(point)
+            angle += 2 * math.pi * np.rint((middle[piece] - angle) / (2 * math.pi))
+        image = flame.core(point, angle, branch)
+        return np.ascontiguousarray(image, np.complex128).view(np.float64).reshape(-1, 2)
+
+    edges = chains.edges
+    fine = tolerance if callable(tolerance) else tolerance * REFINE_SHARE
+    piece, t = refine(evaluate, edges, np.zeros(len(edges)), np.ones(len(edges)), fine)
+    points = evaluate(piece, t)
+    # Each chain's last vertex begins no piece.
+    ends = evaluate(chains.last - 1, np.ones(len(chains)))
+    stops = np.searchsorted(piece, chains.last)
+    image = np.insert(points.view(np.complex128)[:, 0], stops, ends.view(np.complex128)[:, 0])
+    offsets = np.concatenate([[0], stops + np.arange(1, len(chains) + 1)]).astype(np.intp)
+    if angles is None:
+        same = chains.closed
+    else:
+        same = chains.closed & (np.abs(angles.end - angles.start) < math.pi)
+    same &= z[chains.first] != 0
+    image[offsets[1:][same] - 1] = image[offsets[:-1][same]]
+    keep = np.ones(len(image), bool)
+    if thinning and not callable(tolerance) and len(image):
+        flat = image.view(np.float64).reshape(-1, 2)
+        keep = thin(flat, offsets, tolerance * (1 - REFINE_SHARE))
+        keep = _keep_rings(keep, offsets, chains.closed)
+    return Traced(image, offsets, keep)
+
+
+def _keep_rings(keep: NDArray[np.bool_], offsets: Indices, closed: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Leave rings smaller than the tolerance dense: thinned to fewer than three corners they would vanish."""
+    counts = np.add.reduceat(keep, offsets[:-1])
+    small = closed & (counts < 4)
+    if small.any():
+        keep = keep | np.repeat(small, np.diff(offsets))
+    return keep

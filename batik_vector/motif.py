@@ -1,0 +1,282 @@
+"""Motifs: curves put together, each element with its own name, ink and treatment.
+
+A motif is measured in its own units (the paper's: a petal is 1 long); only gaps and line widths are
+millimetres on cloth. :data:`MOTIFS` is the catalogue; a kind says which :class:`Element` s it is made
+of, bottom first, and all that follows (sampling, filling, laying out) is the same for every kind.
+"""
+
+from __future__ import annotations
+
+import enum
+from collections.abc import Callable
+from dataclasses import dataclass, field, fields
+from typing import Annotated, TypeAlias
+
+import numpy as np
+import shapely
+
+from batik_vector.errors import GeometryError, unknown_name
+from batik_vector.fields import Between, Length, OneOf, Says, check
+from batik_vector.geometry.curves import CURVES, Circle, Curve, Hypocycloid, Petal, Rose, Superellipse, trace
+from batik_vector.geometry.maps.affine import Affine
+from batik_vector.geometry.regions import FillRule, Geometries, oriented, settle
+from batik_vector.geometry.sampling import Array, Points
+
+
+class Treatment(enum.StrEnum):
+    """How an element is drawn."""
+
+    AREA = "area"
+    """Filled: solid resist."""
+    LINE = "line"
+    """A centre line, for pens and plotters; the ink's width is how broad it shows."""
+    STROKE = "stroke"
+    """A line with a body: the area a canting of the ink's width leaves."""
+    BOTH = "both"
+    """Filled, and its centre line drawn as well (in ``line_ink`` where one is named)."""
+    CUT = "cut"
+    """Not drawn: bare ground that cuts what lies beneath."""
+
+
+AnyCurve: TypeAlias = Annotated[Curve, OneOf(lambda: CURVES, "curve")]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Dress:
+    """What every element says of its look."""
+
+    ink: Annotated[str, Says("ink it is drawn with; the placement's when left out")] = ""
+    line_ink: Annotated[str, Says('ink of the line of treatment "both"')] = ""
+    treatment: Annotated[Treatment, Says("filled, drawn as a line, as a line with a body, both, or cut out")] = (
+        Treatment.AREA
+    )
+    fill: Annotated[FillRule, Says("which faces of a self-crossing figure are inside")] = FillRule.NONZERO
+    gap: Annotated[
+        Annotated[Length, Between(0, 1000)] | None, Says("ground kept bare round it by cutting what lies beneath")
+    ] = None
+    contours: Annotated[int, Between(1, 64), Says("nested contours, evenly spaced to the centre", "l")] = 1
+
+
+@dataclass(frozen=True, kw_only=True)
+class Element(Dress):
+    """A curve and its copies turned about the motif's centre.
+
+    A copy is first turned by ``spin`` about its own centre, then set ``radius`` out along +x, then turned
+    by ``turn`` and on by arc/count from copy to copy.
+    """
+
+    curve: Annotated[AnyCurve, Says("the curve drawn")]
+    name: Annotated[str, Says("what the element is called in the file")] = ""
+    count: Annotated[int, Between(1, 1000), Says("copies round the centre")] = 1
+    radius: Annotated[float, Between(-1e3, 1e3), Says("distance of the copies from the centre")] = 0.0
+    turn: Annotated[float, Between(-360, 360), Says("degrees to which the first copy is turned")] = 0.0
+    arc: Annotated[float, Between(-360, 360), Says("degrees over which the copies are spread")] = 360.0
+    spin: Annotated[float, Between(-360, 360), Says("degrees each copy is turned about itself")] = 0.0
+    mirror: Annotated[bool, Says("also draw each copy's mirror image")] = False
+
+    def __post_init__(self) -> None:
+        check(self)
+
+    def copies(self) -> list[Affine]:
+        """Return where the curve is drawn."""
+        shift = Affine.translation((self.radius, 0)) @ Affine.turn(self.spin)
+        turns = [Affine.turn(self.turn + self.arc * k / self.count) for k in range(self.count)]
+        if not self.mirror:
+            return [turn @ shift for turn in turns]
+        return [turn @ image @ shift for turn in turns for image in (Affine(), Affine.mirror(0))]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Leaf(Dress):
+    """The leaves of a flower: superellipses through the centre. Tian et al. 2019, Eq. 6."""
+
+    a: Annotated[float, Between(0.02, 50), Says("how full the leaf is towards its tips", "a")] = 0.2
+    b: Annotated[float, Between(0.02, 50), Says("how pointed the tips are", "b")] = 10.0
+    length: Annotated[float, Between(1e-3, 1e3), Says("distance of a tip from the centre", "r1 = 2l")] = 1.2
+    width: Annotated[float, Between(1e-3, 1e3), Says("half the breadth of a leaf", "r2 = l/2")] = 0.3
+    count: Annotated[int, Between(0, 360), Says("leaf tips; 0 leaves them out")] = 8
+    turn: Annotated[float, Between(-360, 360), Says("degrees; 0 sets the leaves between the petals")] = 0.0
+
+    def element(self) -> Element:
+        """A pair of opposite leaves is one superellipse; with an odd count each leaf is one of half the size."""
+        first = self.turn + 180 / self.count
+        if self.count % 2 == 0:
+            curve = Superellipse(self.a, self.b, self.length, self.width)
+            copies = self.count // 2
+            # Each is its own image under a half turn.
+            return _dressed(self, "leaf", curve, copies, turn=first, arc=180.0)
+        curve = Superellipse(self.a, self.b, self.length / 2, self.width)
+        return _dressed(self, "leaf", curve, self.count, turn=first, radius=self.length / 2)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Petals(Dress):
+    """The petals of a flower: those of a rose, set round the centre. Tian et al. 2019, Eq. 9 and 10."""
+
+    length: Annotated[float, Between(1e-3, 1e3), Says("length of a petal", "a1")] = 1.0
+    n: Annotated[int, Between(1, 64), Says("the rose whose petal it is; the larger, the slimmer", "n")] = 2
+    count: Annotated[int, Between(0, 360), Says("petals; 0 leaves them out")] = 8
+    turn: Annotated[float, Between(-360, 360), Says("degrees; 0 points a petal along +x")] = 0.0
+
+    def element(self) -> Element:
+        """Every petal is a ring of its own from the centre and back."""
+        return _dressed(self, "petal", Petal(self.n, self.length), self.count, turn=self.turn)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Pistil(Dress):
+    """The pistils of a flower: the cusps of a hypocycloid. Tian et al. 2019, Eq. 13 and 14."""
+
+    length: Annotated[float, Between(1e-3, 1e3), Says("distance of the cusps from the centre", "r1")] = 0.8
+    count: Annotated[int, Between(0, 96), Says("cusps; 0 leaves them out", "m")] = 16
+    cusp: Annotated[int, Between(1, 48), Says("how far apart joined cusps stand", "n")] = 5
+    turn: Annotated[float, Between(-360, 360), Says("degrees; 0 points a cusp along +x")] = 0.0
+
+    def element(self) -> Element:
+        """One star."""
+        return _dressed(self, "pistil", Hypocycloid(self.count, self.cusp, self.length), 1, turn=self.turn)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Core(Dress):
+    """The core of a flower: a small rose, and a circle in its middle. Tian et al. 2019, Eq. 20."""
+
+    length: Annotated[float, Between(1e-3, 1e3), Says("length of the core's petals", "a2")] = 0.5
+    count: Annotated[int, Between(0, 128), Says("petals of the core; 0 leaves them out")] = 8
+    radius: Annotated[float, Between(0, 1e3), Says("radius of the circle; 0 leaves it out", "a3")] = 0.1
+    turn: Annotated[float, Between(-360, 360), Says("degrees; 0 points a petal along +x")] = 0.0
+
+    def element(self) -> Element:
+        """A rose has 2n petals for even n and n for odd: those counts are whole roses, others single petals."""
+        if self.count % 4 == 0:
+            return _dressed(self, "core", Rose(self.count // 2, 1, self.length), 1, turn=self.turn)
+        if self.count % 2 == 1:
+            return _dressed(self, "core", Rose(self.count, 1, self.length), 1, turn=self.turn)
+        return _dressed(self, "core", Petal(self.count // 2, self.length), self.count, turn=self.turn)
+
+
+def _dressed(
+    part: Dress,
+    name: str,
+    curve: Curve,
+    count: int,
+    *,
+    turn: float = 0.0,
+    radius: float = 0.0,
+    arc: float = 360.0,
+) -> Element:
+    look = {f.name: getattr(part, f.name) for f in fields(Dress)}
+    return Element(curve=curve, name=name, count=count, turn=turn, radius=radius, arc=arc, **look)
+
+
+FLOWER_ORDER = ("leaf", "petal", "pistil", "core", "disc")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Flower:
+    """The paper's flower: leaves, petals, pistils and a core. Tian et al. 2019, §4; defaults of §5.1."""
+
+    leaf: Leaf = field(default_factory=Leaf)
+    petal: Petals = field(default_factory=Petals)
+    pistil: Pistil = field(default_factory=Pistil)
+    core: Core = field(default_factory=Core)
+    disc: Annotated[Dress, Says("look of the circle in the core")] = field(default_factory=Dress)
+    order: Annotated[tuple[str, ...], Says("its elements, bottom first")] = FLOWER_ORDER
+
+    def __post_init__(self) -> None:
+        for part in (self.leaf, self.petal, self.pistil, self.core):
+            check(part)
+        for name in self.order:
+            if name not in FLOWER_ORDER:
+                raise GeometryError(unknown_name(name, FLOWER_ORDER, "element of a flower"))
+        if len(set(self.order)) < len(self.order):
+            raise GeometryError("an element stands twice in the order")
+        if not self.parts():
+            raise GeometryError("the flower has no elements: every count is 0")
+
+    def parts(self) -> tuple[Element, ...]:
+        """Return the elements that are drawn, bottom first."""
+        parts: dict[str, Leaf | Petals | Pistil | Core] = {
+            "leaf": self.leaf,
+            "petal": self.petal,
+            "pistil": self.pistil,
+            "core": self.core,
+        }
+        drawn = {name: part.element() for name, part in parts.items() if part.count}
+        if self.core.radius:
+            drawn["disc"] = _dressed(self.disc, "disc", Circle(self.core.radius), 1)
+        return tuple(drawn[name] for name in self.order if name in drawn)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rosette:
+    """Any curves, each repeated round the centre, bottom first."""
+
+    elements: Annotated[tuple[Element, ...], Says("the elements, bottom first")]
+
+    def __post_init__(self) -> None:
+        if not self.elements:
+            raise GeometryError("the rosette has no elements")
+
+    def parts(self) -> tuple[Element, ...]:
+        """Return the elements, bottom first."""
+        return self.elements
+
+
+MOTIFS: dict[str, type] = {"flower": Flower, "rosette": Rosette}
+"""The catalogue of kinds: each has ``parts()``."""
+
+Motif: TypeAlias = Flower | Rosette
+
+
+@dataclass(frozen=True)
+class Figure:
+    """An element as geometry, in motif units: ``areas`` filled, ``lines`` its centre lines."""
+
+    element: Element
+    areas: Geometries
+    lines: Geometries
+
+
+def draw(motif: Motif, tolerance: float | Callable[[Points], Array]) -> list[Figure]:
+    """Sample and settle every element of a motif.
+
+    Args:
+        motif: in its own units.
+        tolerance: in motif units; or a function of places in the motif, shape (n, 2) → (n,).
+
+    Returns:
+        One figure per element, bottom first. Line and region of an element share their vertices.
+    """
+    return [_draw(element, tolerance) for element in motif.parts()]
+
+
+def _draw(element: Element, tolerance: float | Callable[[Points], Array]) -> Figure:
+    copies = element.copies()
+
+    def everywhere(points: Points) -> Array:
+        assert callable(tolerance)
+        return np.min([tolerance(copy.at(points)) for copy in copies], axis=0)
+
+    traced = trace(element.curve, everywhere if callable(tolerance) else tolerance)
+    scales = [k / element.contours for k in range(element.contours, 0, -1)]
+    lines = np.array([shapely.linestrings(strand * k) for strand in traced.strands for k in scales], dtype=object)
+    areas = np.empty(0, dtype=object)
+    if traced.rings:
+        region = settle(traced.rings, element.fill)
+        areas = _bands([Affine.scale(k).apply(region) for k in scales])
+    return Figure(
+        element,
+        np.concatenate([copy.apply(areas) for copy in copies]) if len(areas) else areas,
+        np.concatenate([copy.apply(lines) for copy in copies]),
+    )
+
+
+def _bands(nested: list[Geometries]) -> Geometries:
+    """Return every other band between nested contours, the outermost filled."""
+    if len(nested) == 1:
+        return nested[0]
+    total = shapely.union_all(nested[0])
+    for inner in nested[1:]:
+        total = shapely.symmetric_difference(total, shapely.union_all(inner))
+    return oriented(shapely.get_parts(total))

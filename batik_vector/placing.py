@@ -1,0 +1,197 @@
+"""One placement, from its motif to sheets of marks in millimetres on cloth."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+
+from batik_vector.artwork import Cell, Geometries, Ink, Overlap
+from batik_vector.errors import GeometryError, RecipeError, TooLargeError, UnknownNameError, blame
+from batik_vector.geometry.ifs import distinct
+from batik_vector.geometry.maps.affine import Affine
+from batik_vector.geometry.sampling import Array, Points
+from batik_vector.model import Placement, Recipe
+from batik_vector.motif import Element, Figure, Motif, Treatment, draw
+from batik_vector.tiling.layouts import Bend, Layout
+from batik_vector.tiling.stack import Sheet, quad_segs
+from batik_vector.units import GRID_MM
+
+COARSE = 2e-3
+"""Tolerance of the first drawing, in motif units: enough to measure it and to foretell its size."""
+
+GRID_SHARE = 1.5 * GRID_MM
+"""What is kept of the tolerance for the moves that vertices make onto the grid."""
+
+SOURCE_SHARE = 0.2
+"""Share of the tolerance that the source of a bent image may use; the bending itself has the rest."""
+
+
+@dataclass(frozen=True)
+class Placed:
+    """The sheets of a placement, bottom first, and how many vertices they have."""
+
+    sheets: list[Sheet]
+    vertices: int
+
+
+def place(placement: Placement, recipe: Recipe, unit: Cell, inks: Mapping[str, Ink], limit: int) -> Placed:
+    """Draw a placement's motif, set it out and bring it to millimetres.
+
+    Args:
+        placement: what is set where.
+        recipe: whose motifs and tolerance hold.
+        unit: the repeat's unit, for layouts that fill it and for the default place.
+        inks: by name.
+        limit: vertices past which the work is refused before it is begun.
+
+    Raises:
+        GeometryError, RecipeError: in the words of what cannot be drawn.
+    """
+    motif = _known(recipe.motif, placement.motif, "motif")
+    layout = placement.layout
+    with blame("layout"):
+        rough_images = layout.images((1.0, 1.0))
+    rough = draw(motif, COARSE)
+    scale = placement.scale or _scale(placement, layout, rough, rough_images)
+    cell = (unit.width / scale, unit.height / scale)
+    with blame("layout"):
+        images = layout.images(cell)
+    count = images.system.image_count() if isinstance(images, Bend) else len(images)
+    vertices = _estimate(rough, count, COARSE * scale / recipe.tolerance)
+    if vertices > limit:
+        raise TooLargeError(
+            f"about {_human(vertices)} vertices, past the limit of {limit:,}: lower the level or the counts, "
+            "allow a larger tolerance, or raise the recipe's limit"
+        )
+    tolerance = max(recipe.tolerance - GRID_SHARE, recipe.tolerance / 2) / scale
+    figures = _set_out(motif, images, tolerance)
+    if placement.width and layout.spreads:
+        scale *= placement.width / (_extent(figures) * scale)
+    at = placement.at or (unit.width / 2, unit.height / 2)
+    on_cloth = Affine.translation(at) @ Affine.turn(placement.turn) @ Affine.scale(scale)
+    sheets = []
+    for figure in figures:
+        with blame(f"motif.{placement.motif}.{figure.element.name}") if figure.element.name else blame(""):
+            sheets += _sheets(figure, placement, inks, on_cloth, recipe.tolerance)
+    total = sum(int(shapely.get_num_coordinates(np.concatenate([s.areas, s.lines])).sum()) for s in sheets)
+    return Placed(sheets, total)
+
+
+def _known(catalogue: Mapping[str, Motif], name: str, what: str) -> Motif:
+    if name not in catalogue:
+        raise UnknownNameError(name, list(catalogue), what)
+    return catalogue[name]
+
+
+def _scale(placement: Placement, layout: Layout, rough: list[Figure], images: list[Affine] | Bend) -> float:
+    if placement.width is None:
+        raise RecipeError("a placement needs a width or a scale")
+    if not layout.spreads:
+        return placement.width / _extent(rough)
+    if isinstance(images, Bend):
+        return placement.width / _extent(_bent(rough, images, COARSE))
+    return placement.width / _extent([_copied(figure, images) for figure in _hulls(rough)])
+
+
+def _hulls(figures: list[Figure]) -> list[Figure]:
+    """Return one figure that reaches as far as all of them together, with few vertices."""
+    everything = np.concatenate([np.concatenate([figure.areas, figure.lines]) for figure in figures])
+    hull = shapely.convex_hull(shapely.geometrycollections(everything))
+    return [Figure(figures[0].element, np.array([hull], dtype=object), np.empty(0, dtype=object))]
+
+
+def _extent(figures: list[Figure]) -> float:
+    """Return the breadth of figures in their own units."""
+    low, high = math.inf, -math.inf
+    for figure in figures:
+        for marks in (figure.areas, figure.lines):
+            if len(marks):
+                bounds = shapely.total_bounds(marks)
+                low, high = min(low, float(bounds[0])), max(high, float(bounds[2]))
+    if not high > low:
+        raise GeometryError("the motif has no breadth to scale: give a scale instead of a width")
+    return high - low
+
+
+def _estimate(rough: list[Figure], count: int, finer: float) -> int:
+    """Foretell the vertices of the fine drawing: their number grows with the root of the tolerance's ratio."""
+    drawn = sum(int(shapely.get_num_coordinates(np.concatenate([f.areas, f.lines])).sum()) for f in rough)
+    return int(drawn * max(1.0, math.sqrt(finer))) * count
+
+
+def _human(number: int) -> str:
+    return f"{number:,}" if number < 10**9 else f"10^{math.floor(math.log10(number))}"
+
+
+def _set_out(motif: Motif, images: list[Affine] | Bend, tolerance: float) -> list[Figure]:
+    """Draw the motif to the tolerance (motif units) and carry it through its layout."""
+    if isinstance(images, Bend):
+        system, first = images.system, images.first
+
+        def source(points: Points) -> Array:
+            return np.asarray(tolerance * SOURCE_SHARE / np.maximum(system.stretch(first.at(points)), 1e-6))
+
+        return _bent(draw(motif, source), images, tolerance * (1 - SOURCE_SHARE))
+    largest = max(image.stretch for image in images)
+    figures = draw(motif, tolerance / largest)
+    groups = [np.concatenate([figure.areas, figure.lines]) for figure in figures]
+    kept = distinct(images, groups, tolerance)
+    return [_copied(figure, kept) for figure in figures]
+
+
+def _copied(figure: Figure, images: list[Affine]) -> Figure:
+    areas = [image.apply(figure.areas) for image in images]
+    lines = [image.apply(figure.lines) for image in images]
+    return Figure(figure.element, np.concatenate(areas), np.concatenate(lines))
+
+
+def _bent(figures: list[Figure], images: Bend, tolerance: float) -> list[Figure]:
+    return [
+        Figure(
+            figure.element,
+            images.system.areas(images.first.apply(figure.areas), tolerance),
+            images.system.lines(images.first.apply(figure.lines), tolerance),
+        )
+        for figure in figures
+    ]
+
+
+def _sheets(
+    figure: Figure, placement: Placement, inks: Mapping[str, Ink], on_cloth: Affine, tolerance: float
+) -> list[Sheet]:
+    """Return what an element draws: one sheet, or two where its line is a sheet of its own."""
+    element = figure.element
+    name = ".".join(part for part in (placement.motif, element.name) if part)
+    areas, lines = on_cloth.apply(figure.areas), on_cloth.apply(figure.lines)
+    if element.treatment == Treatment.CUT:
+        return [Sheet(name, None, areas, gap=element.gap or 0.0)]
+    ink = _ink(element, element.ink or placement.ink, inks)
+    gap = element.gap
+    if gap is None and ink.overlap == Overlap.KNOCKOUT:
+        gap = 0.0
+    if element.treatment == Treatment.AREA:
+        return [Sheet(name, ink, areas, gap=gap)]
+    half = ink.width / 2
+    if element.treatment == Treatment.BOTH:
+        pen = _ink(element, element.line_ink, inks) if element.line_ink else ink
+        return [Sheet(name, ink, areas, gap=gap), Sheet(f"{name}.line", pen, lines=lines)]
+    segments = quad_segs(half, tolerance)
+    whole = shapely.buffer(areas, half, quad_segs=segments) if gap is not None and len(areas) else areas[:0]
+    if element.treatment == Treatment.LINE:
+        return [Sheet(name, ink, lines=lines, gap=gap, cutter=whole)]
+    body: Geometries = np.asarray(shapely.buffer(lines, half, quad_segs=segments), dtype=object)
+    return [Sheet(name, ink, body, gap=gap, cutter=np.concatenate([body, whole]))]
+
+
+def _ink(element: Element, name: str, inks: Mapping[str, Ink]) -> Ink:
+    if not name and len(inks) == 1:
+        return next(iter(inks.values()))
+    if not name:
+        raise RecipeError(f"no ink is named, and the recipe has several: expected one of {', '.join(inks)}")
+    if name not in inks:
+        raise UnknownNameError(name, list(inks), "ink")
+    return inks[name]
