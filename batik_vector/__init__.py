@@ -1,0 +1,75 @@
+"""batik_vector: a vector pattern compiler for textile production.
+
+    from batik_vector import load_recipe, compile_recipe, write_artwork
+
+    artwork = compile_recipe(load_recipe("kawung.toml"))
+    write_artwork(artwork, "kawung.svg")
+
+Names are imported when they are first used.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+from batik_vector._version import __version__
+
+if TYPE_CHECKING:
+    from batik_vector.artwork import Artwork as Artwork
+    from batik_vector.artwork import Cell as Cell
+    from batik_vector.artwork import Ink as Ink
+    from batik_vector.artwork import Layer as Layer
+    from batik_vector.artwork import violations as violations
+    from batik_vector.compiler import compile_recipe as compile_recipe
+    from batik_vector.errors import BatikError as BatikError
+    from batik_vector.errors import ExportError as ExportError
+    from batik_vector.errors import Fault as Fault
+    from batik_vector.errors import GeometryError as GeometryError
+    from batik_vector.errors import RecipeError as RecipeError
+    from batik_vector.errors import SeamError as SeamError
+    from batik_vector.errors import TooLargeError as TooLargeError
+    from batik_vector.errors import TornRingError as TornRingError
+    from batik_vector.errors import UnknownNameError as UnknownNameError
+    from batik_vector.errors import UnsupportedByFormatError as UnsupportedByFormatError
+    from batik_vector.export import write_artwork as write_artwork
+    from batik_vector.model import InkSpec as InkSpec
+    from batik_vector.model import Placement as Placement
+    from batik_vector.model import Recipe as Recipe
+    from batik_vector.recipe import load_recipe as load_recipe
+    from batik_vector.recipe import read_recipe as read_recipe
+
+_HOMES = {
+    "batik_vector.artwork": ("Artwork", "Cell", "Ink", "Layer", "violations"),
+    "batik_vector.compiler": ("compile_recipe",),
+    "batik_vector.errors": (
+        "BatikError",
+        "ExportError",
+        "Fault",
+        "GeometryError",
+        "RecipeError",
+        "SeamError",
+        "TooLargeError",
+        "TornRingError",
+        "UnknownNameError",
+        "UnsupportedByFormatError",
+    ),
+    "batik_vector.export": ("write_artwork",),
+    "batik_vector.model": ("InkSpec", "Placement", "Recipe"),
+    "batik_vector.recipe": ("load_recipe", "read_recipe"),
+}
+_HOME = {name: home for home, names in _HOMES.items() for name in names}
+
+__all__ = ["__version__", *_HOME]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOME:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    value = getattr(import_module(_HOME[name]), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *_HOME})

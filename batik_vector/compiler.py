@@ -35,9 +35,7 @@ def compile_recipe(recipe: Recipe, *, progress: Progress | None = None) -> Artwo
         SeamError: where no clean seam is found.
     """
     tell = progress or (lambda stage: None)
-    inks = {
-        name: Ink(name, spec.colour, spec.width, spec.overlap) for name, spec in recipe.ink.items()
-    }
+    inks = {name: Ink(name, spec.colour, spec.width, spec.overlap) for name, spec in recipe.ink.items()}
     unit = recipe.tile.unit()
     sheets = []
     spent = 0
@@ -85,7 +83,10 @@ def inspect(artwork: Artwork) -> dict[str, Any]:
                 "colour": layer.ink.colour,
                 "areas": len(layer.areas),
                 "lines": len(layer.lines),
-                "covers": round(float(np.sum([a.area for a in layer.areas])) / (artwork.cell.width * artwork.cell.height), 6),
+                "covers": round(
+                    float(np.sum([a.area for a in layer.areas])) / (artwork.cell.width * artwork.cell.height),
+                    6,
+                ),
             }
             for layer in artwork.layers
         ],

@@ -19,7 +19,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from difflib import get_close_matches
+from difflib import SequenceMatcher, get_close_matches
+from os.path import commonprefix
 
 
 class BatikError(Exception):
@@ -85,11 +86,27 @@ class UnsupportedByFormatError(ExportError):
 
 def unknown_name(name: str, known: Sequence[str], what: str = "name") -> str:
     """Return ``unknown WHAT "NAME"`` with the nearest known name, or all of them when none is near."""
-    near = get_close_matches(name.lower(), [k.lower() for k in known], n=1, cutoff=0.55)
-    if near:
-        right = next(k for k in known if k.lower() == near[0])
-        return f'unknown {what} "{name}": did you mean "{right}"?'
-    return f'unknown {what} "{name}": expected one of {", ".join(sorted(known))}'
+    written = name if len(name) <= 60 else name[:60] + "…"
+    near = nearest(name, known)
+    if near is not None:
+        return f'unknown {what} "{written}": did you mean "{near}"?'
+    return f'unknown {what} "{written}": expected one of {", ".join(sorted(known))}'
+
+
+def nearest(name: str, known: Sequence[str]) -> str | None:
+    """Return the known name most like another, or None where none is like it.
+
+    Of equally near ones the one of the same letters wins: who writes dfx has swapped those of dxf.
+    """
+    small = name.lower()
+    likely = get_close_matches(small, [each.lower() for each in known], n=5, cutoff=0.55)
+
+    def likeness(each: str) -> tuple[float, bool, int]:
+        ratio = SequenceMatcher(None, each, small).ratio()
+        return ratio, sorted(each) == sorted(small), len(commonprefix([each, small]))
+
+    best = max(likely, key=likeness, default=None)
+    return next((each for each in known if each.lower() == best), None)
 
 
 @contextmanager

@@ -10,6 +10,7 @@ from __future__ import annotations
 import dataclasses
 import functools
 import math
+import re
 import typing
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
@@ -17,7 +18,7 @@ from typing import Annotated, Any, TypeAlias
 
 import annotated_types
 
-from batik_vector.errors import GeometryError, unknown_name
+from batik_vector.errors import GeometryError
 from batik_vector.units import parse_length
 
 
@@ -41,11 +42,10 @@ class Says:
     text: str
     symbol: str = ""
 
-    def __get_pydantic_json_schema__(self, core_schema: Any, handler: Callable[[Any], Any]) -> Any:
-        """Put the help into the schema."""
-        schema = handler(core_schema)
-        schema["description"] = f"{self.text} (the paper's {self.symbol})" if self.symbol else self.text
-        return schema
+
+@dataclass(frozen=True)
+class Hidden:
+    """Marks what a recipe may not write."""
 
 
 @dataclass(frozen=True)
@@ -58,58 +58,105 @@ class LengthUnit:
 
         return core_schema.no_info_before_validator_function(parse_length, handler(source))
 
-    def __get_pydantic_json_schema__(self, core_schema: Any, handler: Callable[[Any], Any]) -> Any:
-        """A number of mm, or text with a unit."""
-        return {"anyOf": [handler(core_schema), {"type": "string", "examples": ["280 mm", "25.25 in"]}]}
-
 
 Length: TypeAlias = Annotated[float, LengthUnit()]
 """Millimetres on cloth; recipes write "280 mm" or a bare number."""
 
 
 @dataclass(frozen=True)
+class Text:
+    """Marks text with rules: ``parse`` returns it in its one spelling, or raises what was expected.
+
+    ``pattern`` is the regular expression that editors check, where there is one.
+    """
+
+    parse: Callable[[str], str]
+    expected: str
+    pattern: str = ""
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Callable[[Any], Any]) -> Any:
+        """Parse what has been found to be text."""
+        from pydantic_core import core_schema
+
+        return core_schema.no_info_after_validator_function(self.parse, handler(source))
+
+
+_COLOUR = "^#([0-9a-fA-F]{3}){1,2}$"
+
+
+def parse_colour(text: str) -> str:
+    """Return a colour as ``#rrggbb`` in small letters: ``"#FED"`` → ``"#ffeedd"``.
+
+    Raises:
+        ValueError: with what was expected.
+    """
+    if not re.fullmatch(_COLOUR, text) or text.endswith("\n"):
+        raise ValueError("expected #rrggbb or #rgb")
+    figures = text[1:].lower()
+    return "#" + (figures if len(figures) == 6 else "".join(figure * 2 for figure in figures))
+
+
+Colour: TypeAlias = Annotated[str, Text(parse_colour, "#rrggbb or #rgb", _COLOUR)]
+"""A colour on screen."""
+
+
+@dataclass(frozen=True)
 class OneOf:
-    """Marks a value that a recipe writes as a table with a ``kind`` from a catalogue of dataclasses.
+    """Marks a value that a recipe writes as a table whose ``tag`` names a class of a catalogue.
 
     ``load`` returns the catalogue, name → class, when it is first needed.
     """
 
     load: Callable[[], Mapping[str, type]]
     what: str
-    default: str = ""
+    tag: str = "kind"
 
     def __hash__(self) -> int:
         return hash((self.load, self.what))
 
     def __get_pydantic_core_schema__(self, source: Any, handler: Callable[[Any], Any]) -> Any:
-        """Choose the class by ``kind`` and let it check the rest of the table."""
-        from pydantic_core import PydanticCustomError, core_schema
+        """Choose the class by the tag and let it check the rest of the table."""
+        from pydantic_core import core_schema
 
         catalogue = self.load()
-        choices = {name: handler.generate_schema(cls) for name, cls in catalogue.items()}  # type: ignore[attr-defined]
-
-        def strip(value: Any) -> Any:
-            if type(value) in catalogue.values():
-                return value
-            if not isinstance(value, dict):
-                raise PydanticCustomError("table", "expected a table with a kind")
-            kind = value.get("kind", self.default)
-            if not isinstance(kind, str) or kind not in catalogue:
-                words = unknown_name(str(kind), sorted(catalogue), f"kind of {self.what}")
-                raise PydanticCustomError("unknown_name", "{words}", {"words": words})
-            return {"kind": kind, "value": {k: v for k, v in value.items() if k != "kind"}}
-
-        wrapped = {
-            name: core_schema.no_info_before_validator_function(lambda v: v["value"], schema)
-            for name, schema in choices.items()
-        }
+        classes = tuple(catalogue.values())
+        choices: dict[Any, Any] = {}
+        for name, cls in catalogue.items():
+            inner = handler.generate_schema(cls)  # type: ignore[attr-defined]
+            choices[TAG + name] = core_schema.no_info_before_validator_function(_without_tag, inner)
 
         def pick(value: Any, inner: Callable[[Any], Any]) -> Any:
-            stripped = strip(value)
-            return stripped if not isinstance(stripped, dict) else inner(stripped)
+            return value if type(value) in classes else inner(self._tagged(value, catalogue))
 
-        union = core_schema.tagged_union_schema(wrapped, discriminator="kind")
+        union = core_schema.tagged_union_schema(choices, discriminator="tag")
         return core_schema.no_info_wrap_validator_function(pick, union)
+
+    def _tagged(self, value: Any, catalogue: Mapping[str, type]) -> Any:
+        from pydantic_core import PydanticCustomError
+
+        if not isinstance(value, dict):
+            raise PydanticCustomError("no_table", "expected a table")
+        if self.tag not in value:
+            raise PydanticCustomError("no_tag", "expected a table with a tag")
+        tag = value[self.tag]
+        if not isinstance(tag, str) or tag not in catalogue:
+            raise PydanticCustomError("bad_tag", "expected a name of the catalogue")
+        return {"tag": TAG + tag, "rest": {k: _with_tuples(v) for k, v in value.items() if k != self.tag}}
+
+
+TAG = "\0"
+"""Begins the parts of pydantic's paths that name a class of a catalogue and no key."""
+
+
+def _without_tag(value: Any) -> Any:
+    return value["rest"]
+
+
+def _with_tuples(value: Any) -> Any:
+    """Return a value with tuples for lists: what is strict takes no list for a tuple."""
+    if isinstance(value, dict):
+        return {k: _with_tuples(v) for k, v in value.items()}
+    return tuple(_with_tuples(v) for v in value) if isinstance(value, list | tuple) else value
 
 
 @functools.cache
@@ -129,7 +176,8 @@ def check(value: Any) -> None:
     Raises:
         GeometryError: naming the field, its value and the bounds.
     """
-    for name, bounds in _bounded(type(value)):
+    cls: type = type(value)
+    for name, bounds in _bounded(cls):
         number = getattr(value, name)
         if number is None:
             continue

@@ -47,12 +47,13 @@ class Dress:
 
     ink: Annotated[str, Says("ink it is drawn with; the placement's when left out")] = ""
     line_ink: Annotated[str, Says('ink of the line of treatment "both"')] = ""
-    treatment: Annotated[Treatment, Says("filled, drawn as a line, as a line with a body, both, or cut out")] = (
-        Treatment.AREA
-    )
+    treatment: Annotated[
+        Treatment, Says("filled, drawn as a line, as a line with a body, both, or cut out")
+    ] = Treatment.AREA
     fill: Annotated[FillRule, Says("which faces of a self-crossing figure are inside")] = FillRule.NONZERO
     gap: Annotated[
-        Annotated[Length, Between(0, 1000)] | None, Says("ground kept bare round it by cutting what lies beneath")
+        Annotated[Length, Between(0, 1000)] | None,
+        Says("ground kept bare round it by cutting what lies beneath"),
     ] = None
     contours: Annotated[int, Between(1, 64), Says("nested contours, evenly spaced to the centre", "l")] = 1
 
@@ -98,7 +99,7 @@ class Leaf(Dress):
     turn: Annotated[float, Between(-360, 360), Says("degrees; 0 sets the leaves between the petals")] = 0.0
 
     def element(self) -> Element:
-        """A pair of opposite leaves is one superellipse; with an odd count each leaf is one of half the size."""
+        """Two opposite leaves are one superellipse; with an odd count each is one of half the size."""
         first = self.turn + 180 / self.count
         if self.count % 2 == 0:
             curve = Superellipse(self.a, self.b, self.length, self.width)
@@ -132,9 +133,20 @@ class Pistil(Dress):
     cusp: Annotated[int, Between(1, 48), Says("how far apart joined cusps stand", "n")] = 5
     turn: Annotated[float, Between(-360, 360), Says("degrees; 0 points a cusp along +x")] = 0.0
 
+    def __post_init__(self) -> None:
+        check(self)
+        if self.count:
+            self._star()
+
+    def _star(self) -> Hypocycloid:
+        try:
+            return Hypocycloid(self.count, self.cusp, self.length)
+        except GeometryError as error:
+            raise GeometryError(f"count = {self.count} with cusp = {self.cusp}: {error}") from None
+
     def element(self) -> Element:
         """One star."""
-        return _dressed(self, "pistil", Hypocycloid(self.count, self.cusp, self.length), 1, turn=self.turn)
+        return _dressed(self, "pistil", self._star(), 1, turn=self.turn)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -147,7 +159,7 @@ class Core(Dress):
     turn: Annotated[float, Between(-360, 360), Says("degrees; 0 points a petal along +x")] = 0.0
 
     def element(self) -> Element:
-        """A rose has 2n petals for even n and n for odd: those counts are whole roses, others single petals."""
+        """A rose has 2n petals for even n and n for odd; other counts are single petals."""
         if self.count % 4 == 0:
             return _dressed(self, "core", Rose(self.count // 2, 1, self.length), 1, turn=self.turn)
         if self.count % 2 == 1:
@@ -256,11 +268,13 @@ def _draw(element: Element, tolerance: float | Callable[[Points], Array]) -> Fig
 
     def everywhere(points: Points) -> Array:
         assert callable(tolerance)
-        return np.min([tolerance(copy.at(points)) for copy in copies], axis=0)
+        return np.asarray(np.min([tolerance(copy.at(points)) for copy in copies], axis=0))
 
     traced = trace(element.curve, everywhere if callable(tolerance) else tolerance)
     scales = [k / element.contours for k in range(element.contours, 0, -1)]
-    lines = np.array([shapely.linestrings(strand * k) for strand in traced.strands for k in scales], dtype=object)
+    lines = np.array(
+        [shapely.linestrings(strand * k) for strand in traced.strands for k in scales], dtype=object
+    )
     areas = np.empty(0, dtype=object)
     if traced.rings:
         region = settle(traced.rings, element.fill)

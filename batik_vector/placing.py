@@ -118,7 +118,7 @@ def _extent(figures: list[Figure]) -> float:
 
 
 def _estimate(rough: list[Figure], count: int, finer: float) -> int:
-    """Foretell the vertices of the fine drawing: their number grows with the root of the tolerance's ratio."""
+    """Foretell the vertices of the fine drawing: they grow with the root of the tolerance's ratio."""
     drawn = sum(int(shapely.get_num_coordinates(np.concatenate([f.areas, f.lines])).sum()) for f in rough)
     return int(drawn * max(1.0, math.sqrt(finer))) * count
 
@@ -153,8 +153,8 @@ def _bent(figures: list[Figure], images: Bend, tolerance: float) -> list[Figure]
     return [
         Figure(
             figure.element,
-            images.system.areas(images.first.apply(figure.areas), tolerance),
-            images.system.lines(images.first.apply(figure.lines), tolerance),
+            images.system.areas(images.first.apply(figure.areas), tolerance)[0],
+            images.system.lines(images.first.apply(figure.lines), tolerance)[0],
         )
         for figure in figures
     ]

@@ -127,6 +127,7 @@ class _DxfSurface:
             "BOTTOM": left,
             "RIGHT": right,
             "TOP": top,
+            "BLEED": bleed,
             "MIDDLE_X": cell.columns / 2,
             "MIDDLE_Y": cell.rows / 2,
             "VIEW": height * 1.05,

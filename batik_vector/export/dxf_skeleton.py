@@ -32,18 +32,22 @@ FIXED = {
     "$VERSIONGUID": "{00000000-0000-0000-0000-000000000000}",
     "$HANDSEED": "@HANDSEED@",
     "$HANDLING": "0",
+    "$PSVPSCALE": "1.0",
 }
-"""Header variables with one value of our own; the Julian date is noon of 1 January 2000."""
+"""Header variables with one value of our own. The Julian date is noon of 1 January 2000. LibreCAD prints at
+the scale of $PSVPSCALE, and ezdxf's 0 ("to fit") shrinks a drawing there to a dot."""
 
 CORNERS = {
     "$EXTMIN": ("@LEFT@", "@BOTTOM@", "0.0"),
     "$EXTMAX": ("@RIGHT@", "@TOP@", "0.0"),
     "$LIMMIN": ("@LEFT@", "@BOTTOM@"),
     "$LIMMAX": ("@RIGHT@", "@TOP@"),
+    "$PINSBASE": ("@BLEED@", "@BLEED@", "0.0"),
     "$PLIMMIN": ("@LEFT@", "@BOTTOM@"),
     "$PLIMMAX": ("@RIGHT@", "@TOP@"),
 }
-"""Header variables that say where the drawing lies. LibreCAD takes its page from the $PLIM pair."""
+"""Header variables that say where the drawing lies. LibreCAD takes its page from the $PLIM pair
+and lays the drawing's origin on it at $PINSBASE."""
 
 VIEW = {"12": "@MIDDLE_X@", "22": "@MIDDLE_Y@", "40": "@VIEW@"}
 """Group codes of the viewport: centre and height of what is seen on opening."""

@@ -51,6 +51,8 @@ def render(artwork: Artwork, options: PngOptions = DEFAULTS) -> bytes:
     drawing = svg.render(
         replace(artwork, bleed=0.0), SvgOptions(profile=Profile.COMPACT, cloth=options.cloth)
     )
+    # Sides are rounded to whole pixels each by itself, and the picture fills them.
+    drawing = drawing.replace(b" viewBox=", b' preserveAspectRatio="none" viewBox=', 1)
     import cairosvg
 
     data: bytes = cairosvg.svg2png(bytestring=drawing, output_width=width, output_height=height)

@@ -110,16 +110,16 @@ def _areas(areas: Geometries, names: Sequence[str], ink: str) -> Outlines:
 def _lines(lines: Geometries, names: Sequence[str], ink: str) -> Outlines:
     if (shapely.get_type_id(lines) != shapely.GeometryType.LINESTRING).any() or shapely.is_empty(lines).any():
         raise ExportError(f'ink "{ink}": a line is no polyline, or empty')
-    _, coords, (offsets,) = shapely.to_ragged_array(lines, include_z=False)
+    _, coords, (bounds,) = shapely.to_ragged_array(lines, include_z=False)
     points = _steps(coords, ink)
-    offsets = offsets.astype(np.int64)
+    offsets: Offsets = np.array(bounds, np.int64)
     first, last = offsets[:-1], offsets[1:] - 1
     # Fewer than three different places enclose nothing: there and back is an open line.
     closed = (points[first] == points[last]).all(axis=1) & (last - first >= 3)
     keep = np.ones(len(points), bool)
     keep[last[closed]] = False
     offsets[1:] -= np.cumsum(closed)
-    return Outlines(points[keep], offsets, np.arange(len(offsets), dtype=np.int64), closed, names)
+    return Outlines(points[keep], offsets, np.arange(len(offsets)), closed, names)
 
 
 def _steps(coords: NDArray[np.float64], ink: str) -> Steps:

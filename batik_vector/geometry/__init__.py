@@ -1,0 +1,1 @@
+"""Geometry: curves, maps, sampling and regions. It knows neither ink nor page."""

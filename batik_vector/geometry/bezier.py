@@ -49,10 +49,30 @@ ALIKE = 1.25
 """Turns and edges that differ by less than this factor are those of a regular polygon: a circle's."""
 
 SPAN_TURN = 2.6
-"""No cubic is asked to turn by more (radians)."""
+"""No cubic is planned to turn by more (radians), though one that fits may."""
 
-ROUNDS = 5
-HALVINGS = 32
+ROUNDS = 7
+"""How often joints are moved: later rounds seldom save a cubic."""
+
+FITS = 4
+"""Least squares solutions, each followed by two Newton steps towards the nearest parameters."""
+
+ALONG = 1e-4
+"""Weight of errors along the curve against errors across it, once the parameters are near: only the
+latter are errors, but where the curve is straight nothing else would place the handles."""
+
+STEP = 2.5
+"""Handles change by at most this factor from one solution to the next."""
+
+EVEN = 0.3
+"""First parameters go by affine arc length ∫ κ^⅓ ds, a parabola's own parameter, with this share of
+plain arc length, for the sake of inflections."""
+
+ROUNDING = 0.1
+"""Errors below this part of the tolerance come from the sampling; fewer spans would not enlarge them."""
+
+BLOCK = 16384
+"""How many data are fitted at a time: what a processor's cache holds."""
 
 
 @dataclass(frozen=True)
@@ -92,12 +112,14 @@ class _Runs:
     """Smooth stretches: items are their vertices, each stretch with both of its ends.
 
     ``dense`` holds every vertex and after it the middle of the smooth interpretation of the edge that
-    leaves it; ``travel`` the arc length there. ``rise`` and ``fall`` are the slopes of the
-    interpretation over its chord, ``first`` and ``edges`` belong to stretches.
+    leaves it; ``travel`` and ``pace`` the arc length and the affine arc length there. ``rise`` and
+    ``fall`` are the slopes of the interpretation over its chord, ``bend`` is their sum. ``first`` vertex
+    and number of ``edges`` belong to stretches, all else to vertices and the edges that leave them.
     """
 
     dense: Complex
     travel: Array
+    pace: Array
     tangent: Complex
     chord: Complex
     rise: Array
@@ -130,65 +152,89 @@ def fit_cubics(coords: Points, offsets: Indices, closed: Mask, tolerance: float)
     """
     if not (np.isfinite(coords).all() and 0 < tolerance < np.inf):
         raise GeometryError("cannot fit curves to coordinates that are not finite, or without a tolerance")
-    closed = np.asarray(closed, bool)
-    lines = _lines(*_useful(coords, np.asarray(offsets, np.intp), closed, tolerance), closed)
-    path, start, stop, smooth_ring = _stretches(lines, closed, _breaks(lines, tolerance))
+    closed, flat = np.asarray(closed, bool), min(FLAT, tolerance / 5)
+    lines, breaks = _read(coords, np.asarray(offsets, np.intp), closed, tolerance)
+    path, start, stop, smooth_ring = _stretches(lines, closed, breaks)
     # A stretch of one edge has no vertices to bend it.
     bent = stop - start > 1
     runs = _runs(lines, path, start, stop, bent, smooth_ring)
-    a, b, handles, failed = _fit_runs(runs, tolerance)
+    a, b, handles, failed = _fit_runs(runs, tolerance - flat)
     position = _ranges(start[bent], runs.edges + 1)
-    begin = np.concatenate([start[~bent], position[a]])
-    order = np.argsort(begin)
-    head, tail = lines.at[path[begin]], lines.at[path[np.concatenate([stop[~bent], position[b]])]]
+    begin, end = np.concatenate([start[~bent], position[a]]), np.concatenate([stop[~bent], position[b]])
     straight = np.concatenate([np.ones(len(begin) - len(a), bool), failed])
+    head, tail = lines.at[path[begin]], lines.at[path[end]]
     points = np.column_stack([head, (head * 2 + tail) / 3, (head + tail * 2) / 3, tail])
-    curve = np.flatnonzero(~straight)
-    points[curve, 1:3] = handles[~failed]
+    points[~straight, 1:3] = handles[~failed]
+    order = np.argsort(begin)
     count = np.bincount(lines.line[path[begin]], minlength=len(closed))
-    return Cubics(
-        np.stack([points.real, points.imag], axis=-1)[order],
-        np.concatenate([[0], np.cumsum(count)]).astype(np.intp),
-        straight[order],
-    )
+    into = np.concatenate([[0], np.cumsum(count)]).astype(np.intp)
+    return Cubics(points[order].view(float).reshape(-1, 4, 2), into, straight[order])
 
 
 def _ranges(start: Indices, size: Indices) -> Indices:
     """Return the indices of ranges one after another."""
     skip = np.cumsum(size) - size
-    return np.arange(int(size.sum())) + np.repeat(start - skip, size)
+    return np.asarray(np.arange(int(size.sum())) + np.repeat(start - skip, size))
 
 
 def _wrap(angle: Array) -> Array:
-    return (angle + np.pi) % (2 * np.pi) - np.pi
+    return np.asarray((angle + np.pi) % (2 * np.pi) - np.pi)
 
 
-def _useful(coords: Points, offsets: Indices, closed: Mask, tolerance: float) -> tuple[Complex, Indices]:
-    """Return the vertices that say something and their lines: none repeated, none on a straight edge."""
+def _read(coords: Points, offsets: Indices, closed: Mask, tolerance: float) -> tuple[_Lines, Mask]:
+    """Return the polylines, without vertices that say nothing, and the breaks between their stretches."""
+    at, line = _distinct(coords, offsets, closed)
+    flat = min(FLAT, tolerance / 5)
+    keep = _bends(at, line, closed, flat)
+    lines = _lines(at[keep], line[keep], closed)
+    breaks = _breaks(lines, tolerance)
+    # Where curves change sides they are flat too, and chords get too long there to tell how they bend.
+    turn = np.abs(lines.turn)
+    height = lines.length * np.maximum(turn, turn[lines.after]) / 8
+    coarse = (height > 4 * flat) & ~(breaks & breaks[lines.after])
+    edge = np.cumsum(keep) - 1
+    edge = np.where(lines.line[edge] == line, edge, np.searchsorted(lines.line, line, "right") - 1)
+    again = coarse[edge] & ~keep
+    if again.any():
+        keep |= again
+        lines = _lines(at[keep], line[keep], closed)
+        breaks = _breaks(lines, tolerance)
+    return lines, breaks
+
+
+def _distinct(coords: Points, offsets: Indices, closed: Mask) -> tuple[Complex, Indices]:
+    """Return the vertices and their lines, none repeated, of those lines that have a length."""
     line = np.repeat(np.arange(len(closed)), np.diff(offsets))
     at = np.ascontiguousarray(coords, float).view(complex).ravel()
-    new = np.ones(len(at), bool)
-    new[1:] = (at[1:] != at[:-1]) | (line[1:] != line[:-1])
-    at, line = at[new], line[new]
+    keep = np.ones(len(at), bool)
+    keep[1:] = (at[1:] != at[:-1]) | (line[1:] != line[:-1])
+    at, line = at[keep], line[keep]
+    bounds = np.flatnonzero(np.r_[True, line[1:] != line[:-1], True]) if len(at) else np.zeros(1, np.intp)
+    head, tail = bounds[:-1], bounds[1:] - 1
+    keep = np.repeat(tail > head, np.diff(bounds))
+    keep[tail[closed[line[head]] & (at[head] == at[tail])]] = False
+    return at[keep], line[keep]
+
+
+def _bends(at: Complex, line: Indices, closed: Mask, flat: float) -> Mask:
+    """Return which vertices stand off the lines through others."""
     if not len(at):
-        return at, line
-    flat = min(FLAT, tolerance / 5)
+        return np.ones(0, bool)
     bounds = np.flatnonzero(np.r_[True, line[1:] != line[:-1], True])
     keep = thin(at.view(float).reshape(-1, 2), bounds, flat)
-    head, tail = bounds[:-1], bounds[1:] - 1
-    ring = closed[line[head]] & (at[head] == at[tail])
-    keep[tail[ring]] = False
-    size = np.add.reduceat(keep.astype(np.intp), head)
-    # A ring may begin amid a straight edge.
-    kept, last = np.flatnonzero(keep), np.cumsum(size) - 1
-    some = ring & (size > 3)
-    first = last[some] - size[some] + 1
-    before, after = at[kept[last[some]]], at[kept[first + 1]]
-    way, off = after - before, at[head[some]] - before
-    part = (way.conj() * off).real / np.maximum(np.abs(way) ** 2, 1e-300)
-    keep[head[some][(np.abs(off - way * part) <= flat) & (0 < part) & (part < 1)]] = False
-    keep &= np.repeat(size > 1, np.diff(bounds))
-    return at[keep], line[keep]
+    # Both ends of a line are kept, though a ring may begin amid a straight edge.
+    for end in (bounds[:-1], bounds[1:] - 1):
+        kept = np.flatnonzero(keep)
+        lines = _lines(at[kept], line[kept], closed)
+        i = np.searchsorted(kept, end)
+        i = i[closed[line[end]] & (np.bincount(line[kept])[line[end]] > 3)]
+        way, off = (
+            at[kept[lines.after[i]]] - at[kept[lines.before[i]]],
+            at[kept[i]] - at[kept[lines.before[i]]],
+        )
+        part = (way.conj() * off).real / np.maximum(np.abs(way) ** 2, 1e-300)
+        keep[kept[i[(np.abs(off - way * part) <= flat) & (part > 0) & (part < 1)]]] = False
+    return keep
 
 
 def _lines(at: Complex, line: Indices, closed: Mask) -> _Lines:
@@ -230,7 +276,7 @@ def _breaks(lines: _Lines, tolerance: float) -> Mask:
 def _straight(lines: _Lines, hard: Mask, scale: float) -> Mask:
     """Return the edges too long for the turns at their ends to be those of a sampled curve."""
     before, after = lines.before, lines.after
-    turn = np.where(hard, np.inf, np.abs(lines.turn))
+    turn = np.where(hard, 1e9, np.abs(lines.turn))
     bounded = hard & hard[after]
     height = np.where(bounded, 0.0, lines.length * np.minimum(turn, turn[after]) / 8)
     further, nearer = np.where(before == before[before], 0.0, height[before[before]]), height[before]
@@ -310,7 +356,10 @@ def _runs(
     dense = np.column_stack([at, middle]).ravel()
     travel = np.column_stack([travel, travel + arc / 2]).ravel()
     bend = np.abs(np.where(np.abs(chord) > 0, rise + fall, 0))
-    return _Runs(dense, travel, np.exp(1j * heading), chord, rise, fall, bend, first, edges)
+    step = np.cbrt(bend * arc * arc)
+    pace = np.cumsum(step) - step
+    pace = np.column_stack([pace, pace + step / 2]).ravel()
+    return _Runs(dense, travel, pace, np.exp(1j * heading), chord, rise, fall, bend, first, edges)
 
 
 def _headings(at: Complex, bend: Array, local: Indices, edges: Indices, ring: Mask) -> Array:
@@ -341,7 +390,7 @@ def _headings(at: Complex, bend: Array, local: Indices, edges: Indices, ring: Ma
     angle[:, 1:] = np.cumsum(_wrap(np.diff(angle, axis=1)), axis=1)
     base = angle[:, 0].copy()
     angle[:, 0] = 0
-    return base + _derivative(length, angle, place, valid)
+    return np.asarray(base + _derivative(length, angle, place, valid))
 
 
 def _derivative(length: Array, angle: Array, place: Indices, valid: Mask) -> Array:
@@ -365,7 +414,8 @@ def _derivative(length: Array, angle: Array, place: Indices, valid: Mask) -> Arr
     middle = way[:, :4] + length / 2
     m0, m1, a0, a1 = middle[row, near], middle[row, near + 1], angle[row, near], angle[row, near + 1]
     guess = a0 - (a1 - a0) * m0 / (m1 - m0)
-    return np.clip(result, guess - np.abs(a1 - a0) / 2, guess + np.abs(a1 - a0) / 2)
+    reach = np.abs(a1 - a0) / 2
+    return np.asarray(np.clip(result, guess - reach, guess + reach))
 
 
 def _fit_runs(runs: _Runs, tolerance: float) -> tuple[Indices, Indices, Complex, Mask]:
@@ -376,21 +426,18 @@ def _fit_runs(runs: _Runs, tolerance: float) -> tuple[Indices, Indices, Complex,
         whether it was given up: only spans of one edge are, which then are straight.
     """
     weight = _weights(runs, tolerance)
-    joint = _joints(runs, weight, tolerance)
-    todo_a, todo_b = _spans(runs, joint, np.ones(len(runs.first), bool))
+    total = np.cumsum(weight)
+    a, b = _spans(runs, _joints(runs, weight, tolerance), np.ones(len(runs.first), bool))
     done: list[tuple[Indices, Indices, Complex, Mask]] = []
-    while len(todo_a):
-        handles, error = _fit(runs, todo_a, todo_b, tolerance)
+    while len(a) or not done:
+        handles, error = _fit(runs, a, b, tolerance)
         bad = error > 1
-        stay = ~bad | (todo_b - todo_a == 1)
-        done.append((todo_a[stay], todo_b[stay], handles[stay], bad[stay]))
-        a, b = todo_a[~stay], todo_b[~stay]
-        total = np.cumsum(weight)
-        half = np.searchsorted(total, (total[a] - weight[a] + total[b - 1]) / 2) 
+        stay = ~bad | (b - a == 1)
+        done.append((a[stay], b[stay], handles[stay], bad[stay]))
+        a, b = a[~stay], b[~stay]
+        half = np.searchsorted(total, (total[a] - weight[a] + total[b - 1]) / 2)
         half = np.clip(half, a + 1, b - 1)
-        todo_a, todo_b = np.concatenate([a, half]), np.concatenate([half, b])
-    if not done:
-        return runs.first, runs.first, np.empty((0, 2), complex), np.empty(0, bool)
+        a, b = np.concatenate([a, half]), np.concatenate([half, b])
     a, b, handles, bad = (np.concatenate(parts) for parts in zip(*done, strict=True))
     order = np.argsort(a)
     return a[order], b[order], handles[order], bad[order]
@@ -406,36 +453,41 @@ def _weights(runs: _Runs, tolerance: float) -> Array:
 
 def _joints(runs: _Runs, weight: Array, tolerance: float) -> Mask:
     """Choose the vertices where spans meet, so that the spans of a run err alike and are few."""
-    owner = np.repeat(np.arange(len(runs.first)), runs.edges + 1)
+    runs_n, never = len(runs.first), np.iinfo(np.intp).max
+    owner = np.repeat(np.arange(runs_n), runs.edges + 1)
     joint = np.zeros(len(owner), bool)
-    best = np.full(len(runs.first), np.iinfo(np.intp).max)
-    count = np.ceil(np.bincount(owner, weight, len(best)) - 1e-6).astype(np.intp)
-    active = np.ones(len(best), bool)
-    for turn in range(ROUNDS):
+    best, active = np.full(runs_n, never), np.ones(runs_n, bool)
+    # What ends where it begins takes two cubics: handles alone are no shape to edit.
+    least = 1 + (runs.dense[2 * runs.first] == runs.dense[2 * (runs.first + runs.edges)])
+    count = np.maximum(np.ceil(np.bincount(owner, weight, runs_n) - 1e-6).astype(np.intp), least)
+    for late in range(ROUNDS):
         if not active.any():
             break
         trial = _place(runs, owner, weight, count)
         a, b = _spans(runs, trial, active)
         _, error = _fit(runs, a, b, tolerance)
-        run = owner[a]
-        worst = np.zeros(len(best))
-        np.maximum.at(worst, run, error)
-        spans = np.bincount(run, minlength=len(best))
+        worst = np.zeros(runs_n)
+        np.maximum.at(worst, owner[a], error)
+        spans = np.bincount(owner[a], minlength=runs_n)
         better = active & (worst <= 1) & (spans < best)
-        # The first trial is kept in any case, and every later one of runs that have not fitted yet.
-        take = active & (better | (best == np.iinfo(np.intp).max))
-        joint = np.where(take[owner], trial, joint)
+        joint = np.where((active & (better | (best == never)))[owner], trial, joint)
         best = np.where(better, spans, best)
-        turned = np.add.reduceat(runs.bend[_ranges(a, b - a)], np.cumsum(b - a) - (b - a))
-        need = np.maximum(np.clip(error, 1e-3, 1e3) ** (1 / 6), turned / SPAN_TURN)
-        weight = weight.copy()
-        total = np.add.reduceat(weight[_ranges(a, b - a)], np.cumsum(b - a) - (b - a))
-        weight[_ranges(a, b - a)] *= np.repeat(need / total, b - a)
-        wanted = np.ceil(1.02 * np.bincount(run, need, len(best))).astype(np.intp)
-        fits = worst <= 1
-        count = np.where(fits, np.minimum(wanted, spans - 1), np.maximum(wanted, spans + (turn > 0)))
-        active &= (count >= 1) & (count < best) & (~fits | (wanted < spans))
+        weight, need = _needs(runs, weight, a, b, error)
+        wanted = np.ceil(1.02 * np.bincount(owner[a], need, runs_n)).astype(np.intp)
+        count = np.where(worst <= 1, np.minimum(wanted, spans - 1), np.maximum(wanted, spans + (late > 0)))
+        active &= (count >= least) & (count < best)
     return joint
+
+
+def _needs(runs: _Runs, weight: Array, a: Indices, b: Indices, error: Array) -> tuple[Array, Array]:
+    """Return the edges' weights corrected by the errors made, and how many spans each span should be."""
+    size = b - a
+    edge, head = _ranges(a, size), np.cumsum(size) - size
+    need = np.clip(error - ROUNDING, 0.002, 100) ** (1 / 6)
+    need = np.maximum(need, np.add.reduceat(runs.bend[edge], head) / SPAN_TURN)
+    weight = weight.copy()
+    weight[edge] *= np.repeat(need / np.add.reduceat(weight[edge], head), size)
+    return weight, need
 
 
 def _place(runs: _Runs, owner: Indices, weight: Array, count: Indices) -> Mask:
@@ -445,28 +497,17 @@ def _place(runs: _Runs, owner: Indices, weight: Array, count: Indices) -> Mask:
     whole = total[runs.first + runs.edges] - base
     share = (total - weight / 2 - base[owner]) / whole[owner]
     bucket = np.floor(share * count[owner] + 1e-6)
-    joint = np.zeros(len(weight), bool)
-    joint[1:] = bucket[1:] > bucket[:-1]
+    joint = np.append(False, bucket[1:] > bucket[:-1])
     joint[runs.first] = joint[runs.first + runs.edges] = True
     return joint
 
 
 def _spans(runs: _Runs, joint: Mask, active: Mask) -> tuple[Indices, Indices]:
     """Return the first and last vertices of the spans between joints, of the active runs."""
-    on = np.repeat(active, runs.edges + 1) & joint
-    last = np.zeros(len(joint), bool)
-    last[runs.first + runs.edges] = True
-    first = np.zeros(len(joint), bool)
-    first[runs.first] = True
-    return np.flatnonzero(on & ~last), np.flatnonzero(on & ~first)
-
-
-FITS = 3
-"""Least squares solutions, each followed by one Newton step towards the nearest parameters."""
-
-ALONG = 0.01
-"""Weight of errors along the curve against errors across it, once the parameters are near: only the
-latter are errors, but where the curve is straight nothing else would place the handles."""
+    begin = np.repeat(active, runs.edges + 1) & joint
+    end = begin.copy()
+    begin[runs.first + runs.edges] = end[runs.first] = False
+    return np.flatnonzero(begin), np.flatnonzero(end)
 
 
 def _fit(runs: _Runs, a: Indices, b: Indices, tolerance: float) -> tuple[Complex, Array]:
@@ -475,21 +516,35 @@ def _fit(runs: _Runs, a: Indices, b: Indices, tolerance: float) -> tuple[Complex
     Returns:
         The two handles, shape (s, 2), and the error in tolerances, shape (s,).
     """
+    block = np.cumsum(2 * (b - a) + 1) // BLOCK
+    cuts = np.flatnonzero(block[1:] > block[:-1]) + 1
+    parts = [
+        _fit_block(runs, i, j, tolerance) for i, j in zip(np.split(a, cuts), np.split(b, cuts), strict=True)
+    ]
+    return np.concatenate([handles for handles, _ in parts]), np.concatenate([error for _, error in parts])
+
+
+def _fit_block(runs: _Runs, a: Indices, b: Indices, tolerance: float) -> tuple[Complex, Array]:
+    if not len(a):
+        return np.empty((0, 2), complex), np.empty(0)
     size = 2 * (b - a) + 1
     at, own, head = _ranges(2 * a, size), np.repeat(np.arange(len(a)), size), np.cumsum(size) - size
     data, travel = runs.dense[at], runs.travel[2 * b] - runs.travel[2 * a]
-    u = (runs.travel[at] - runs.travel[2 * a][own]) / travel[own]
+    pace = np.maximum(runs.pace[2 * b] - runs.pace[2 * a], 1e-300)
+    u = (runs.pace[at] - runs.pace[2 * a][own]) / pace[own]
+    u = (u + EVEN * (runs.travel[at] - runs.travel[2 * a][own]) / travel[own]) / (1 + EVEN)
     u[head + size - 1] = 1.0
-    ends = runs.dense[2 * a], runs.dense[2 * b]
-    out, into = runs.tangent[a], -runs.tangent[b]
+    ends, tangents = (runs.dense[2 * a], runs.dense[2 * b]), (runs.tangent[a], -runs.tangent[b])
     frame: Complex = np.ones(len(at), complex)
-    for fit in range(FITS):
-        one, two = _lengths(data, u, own, head, ends, (out, into), frame, 1.0 if fit == 0 else ALONG)
-        bad = ~((one > 0.02 * travel) & (one < 1.2 * travel) & (two > 0.02 * travel) & (two < 1.2 * travel))
-        one, two = np.where(bad, travel / 3, one), np.where(bad, travel / 3, two)
-        handles = np.stack([ends[0] + one * out, ends[1] + two * into])
-        power = _powers(ends[0], handles[0], handles[1], ends[1])
-        u, frame = _newton(power[:, own], data, u)
+    length = np.stack([travel, travel]) / 3
+    for late in range(FITS):
+        solved = _lengths(data, u, own, head, ends, tangents, frame, ALONG if late else 1.0)
+        solved = np.where(np.isfinite(solved), solved, length)
+        low, high = np.maximum(length / STEP, 0.02 * travel), np.minimum(length * STEP, 1.2 * travel)
+        length = np.clip(solved, low, high)
+        handles = np.stack(ends) + length * np.stack(tangents)
+        power = _powers(ends[0], handles[0], handles[1], ends[1])[:, own]
+        u, frame = _newton(power, data, u)
     error = _error(runs, power, at, own, u, tolerance)
     return handles.T, np.maximum.reduceat(error, head)
 
@@ -503,8 +558,8 @@ def _lengths(
     tangents: tuple[Complex, Complex],
     frame: Complex,
     along: float,
-) -> tuple[Array, Array]:
-    """Solve for the lengths of both handles: Schneider's 2×2 normal equations, one pair per span.
+) -> Array:
+    """Solve for the lengths of both handles, shape (2, s): Schneider's normal equations, 2×2 per span.
 
     Errors are measured in the frame of the curve's unit tangents: all across it, ``along`` of the rest.
     """
@@ -522,10 +577,8 @@ def _lengths(
     rows = np.stack([dot(one, one), dot(one, two), dot(two, two), dot(one, rest), dot(two, rest)])
     s11, s12, s22, r1, r2 = np.add.reduceat(rows, head, axis=1)
     det = s11 * s22 - s12 * s12
-    with np.errstate(divide="ignore", invalid="ignore"):
-        first, second = (r1 * s22 - r2 * s12) / det, (r2 * s11 - r1 * s12) / det
-    good = det > 1e-12 * s11 * s22
-    return np.where(good, first, np.nan), np.where(good, second, np.nan)
+    det[det <= 1e-12 * s11 * s22] = np.nan
+    return np.asarray(np.stack([r1 * s22 - r2 * s12, r2 * s11 - r1 * s12]) / det)
 
 
 def _powers(p0: Complex, p1: Complex, p2: Complex, p3: Complex) -> Complex:
@@ -536,14 +589,15 @@ def _powers(p0: Complex, p1: Complex, p2: Complex, p3: Complex) -> Complex:
 def _newton(power: Complex, data: Complex, u: Array) -> tuple[Array, Complex]:
     """Move parameters towards the points nearest to the data; return them and the unit tangents there."""
     c0, c1, c2, c3 = power
-    off = c0 + u * (c1 + u * (c2 + u * c3)) - data
+    inner = (u > 0) & (u < 1)
     speed = c1 + u * (2 * c2 + u * (3 * c3))
-    force = 2 * c2 + u * (6 * c3)
-    square = speed.real**2 + speed.imag**2
-    slope = square + (force.conj() * off).real
-    step = (speed.conj() * off).real / np.where(slope > square / 4, slope, np.maximum(square, 1e-300))
-    u = np.where((u > 0) & (u < 1), np.clip(u - step, 1e-9, 1 - 1e-9), u)
-    speed = c1 + u * (2 * c2 + u * (3 * c3))
+    for _ in range(2):
+        off = c0 + u * (c1 + u * (c2 + u * c3)) - data
+        square = speed.real**2 + speed.imag**2
+        slope = square + ((2 * c2 + u * (6 * c3)).conj() * off).real
+        step = (speed.conj() * off).real / np.where(slope > square / 4, slope, np.maximum(square, 1e-300))
+        u = np.where(inner, np.clip(u - step, 1e-9, 1 - 1e-9), u)
+        speed = c1 + u * (2 * c2 + u * (3 * c3))
     return u, speed / np.maximum(np.abs(speed), 1e-300)
 
 
@@ -553,7 +607,7 @@ def _error(runs: _Runs, power: Complex, at: Indices, own: Indices, u: Array, tol
     The data (vertices and the middles between) must be near the curve, and the curve between data near
     the smooth interpretation of its edge, and near the edge itself.
     """
-    c0, c1, c2, c3 = power[:, own]
+    c0, c1, c2, c3 = power
     error = np.abs(c0 + u * (c1 + u * (c2 + u * c3)) - runs.dense[at]) / tolerance
     i = np.flatnonzero(own[1:] == own[:-1])
     half = (u[i] + u[i + 1]) / 2
@@ -561,12 +615,13 @@ def _error(runs: _Runs, power: Complex, at: Indices, own: Indices, u: Array, tol
     point = c0[i] + half * (c1[i] + half * (c2[i] + half * c3[i])) - runs.dense[2 * edge]
     chord, rise, fall = runs.chord[edge], runs.rise[edge], runs.fall[edge]
     length = np.abs(chord)
-    point = point * chord.conj() / length
-    f = np.clip(point.real / length, 0, 1)
-    beyond = np.abs(point.real - f * length)
-    off = np.hypot(beyond, point.imag - length * f * (1 - f) * (rise * (1 - f) + fall * f)) / tolerance
+    point *= chord.conj() / length
+    part = np.clip(point.real / length, 0, 1)
+    beyond = point.real - part * length
+    arc = length * part * (1 - part) * (rise * (1 - part) + fall * part)
     height = length * (np.abs(rise) + np.abs(fall)) / 8
     allowed = tolerance / 2 + np.maximum(tolerance / 2 + np.minimum(height, tolerance / 2), height)
-    off = np.maximum(off, np.hypot(beyond, point.imag) / allowed)
+    off = np.maximum(np.hypot(beyond, point.imag - arc) / tolerance, np.hypot(beyond, point.imag) / allowed)
+    # A curve that runs backwards between its data has a loop.
     error[i] = np.maximum(error[i], np.where(u[i + 1] > u[i], off, 1e3))
-    return error
+    return np.asarray(error)

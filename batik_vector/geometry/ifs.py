@@ -117,7 +117,7 @@ class Ifs:
                 order = np.argpartition(-factor, STRETCH_PATHS, axis=0)[:STRETCH_PATHS]
                 at = np.take_along_axis(at, order[:, :, None], axis=0)
                 factor = np.take_along_axis(factor, order, axis=0)
-        return np.minimum(factor.max(axis=0), STRETCH_CAP)
+        return np.asarray(np.minimum(factor.max(axis=0), STRETCH_CAP))
 
     def _carried(
         self,
@@ -151,7 +151,7 @@ class Ifs:
     def _refuse_too_many(self, count: int, limit: int) -> None:
         if count > limit:
             raise TooLargeError(
-                f"level {self.level} makes {_about(self.image_count())} copies, more than fit: lower the level"
+                f"level {self.level} makes {_about(self.image_count())} copies, more than fit: lower it"
             )
 
 
@@ -164,7 +164,7 @@ def _about(count: int) -> str:
 
 
 def _compose(outer: Array, inner: Array) -> Array:
-    """Return every outer map after every inner one; rows are (a, b, c, d, e, f), the inner ones run fastest."""
+    """Return every outer map after every inner one, the inner ones running fastest; rows are (a, …, f)."""
     a, b, c, d, e, f = (column[:, None] for column in outer.T)
     p, q, r, s, t, u = (column[None, :] for column in inner.T)
     rows = (a * p + b * r, a * q + b * s, c * p + d * r, c * q + d * s, a * t + b * u + e, c * t + d * u + f)

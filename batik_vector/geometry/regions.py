@@ -36,10 +36,10 @@ def settle(rings: Sequence[Points], rule: FillRule = FillRule.NONZERO) -> Geomet
     Returns:
         The polygons, as an array; they touch one another in points at most.
     """
-    polygons = shapely.polygons([shapely.linearrings(ring) for ring in rings])
+    polygons = np.array([shapely.Polygon(ring) for ring in rings], dtype=object)
     if shapely.is_valid(polygons).all() and not _interfere(polygons):
         return oriented(polygons)
-    noded = shapely.union_all([shapely.linestrings(ring) for ring in rings])
+    noded = shapely.union_all([shapely.LineString(ring) for ring in rings])
     faces = shapely.get_parts(shapely.polygonize(shapely.get_parts(noded)))
     if rule == FillRule.OUTLINE:
         inside = faces

@@ -128,7 +128,9 @@ def _split(
     return piece[owner], start, end, open_[owner]
 
 
-def thin(points: Points, offsets: Indices, tolerance: float, keep: NDArray[np.bool_] | None = None) -> NDArray[np.bool_]:
+def thin(
+    points: Points, offsets: Indices, tolerance: float, keep: NDArray[np.bool_] | None = None
+) -> NDArray[np.bool_]:
     """Choose the vertices of dense polylines that a tolerance needs.
 
     Args:
@@ -150,7 +152,8 @@ def thin(points: Points, offsets: Indices, tolerance: float, keep: NDArray[np.bo
     length = np.hypot(step[:, 0], step[:, 1])
     turn = np.abs(
         np.arctan2(
-            step[:-1, 0] * step[1:, 1] - step[:-1, 1] * step[1:, 0], np.einsum("ij,ij->i", step[:-1], step[1:])
+            step[:-1, 0] * step[1:, 1] - step[:-1, 1] * step[1:, 0],
+            np.einsum("ij,ij->i", step[:-1], step[1:]),
         )
     )
     fixed[1:-1] |= turn > CORNER_TURN

@@ -1,0 +1,1 @@
+"""Tiling: cells, layouts, and the torus on which a tile is cut."""

@@ -10,7 +10,7 @@ from typing import Annotated
 
 from batik_vector.artwork import Cell, DropAxis
 from batik_vector.errors import GeometryError
-from batik_vector.fields import Between, Length, Says
+from batik_vector.fields import Between, Length, Says, Text
 from batik_vector.units import to_steps
 
 _DROP = re.compile(r"^(drop|brick)\s+(\d{1,3})\s*/\s*(\d{1,3})$")
@@ -20,6 +20,14 @@ _NAMED = {
     "brick": (Fraction(1, 2), DropAxis.ROW),
 }
 MAX_DENOMINATOR = 60
+REPEATS = '"grid", "half-drop", "brick", "drop p/q" or "brick p/q"'
+REPEAT_PATTERN = r"^\s*(grid|half-drop|brick|(drop|brick)\s+\d{1,3}\s*/\s*\d{1,3})\s*$"
+"""For editors; :func:`parse_repeat` is what decides."""
+
+
+def _checked_repeat(text: str) -> str:
+    parse_repeat(text)
+    return text
 
 
 class Cut(enum.StrEnum):
@@ -39,7 +47,9 @@ class TileSpec:
         tuple[Annotated[Length, Between(0.1, 20_000)], Annotated[Length, Between(0.1, 20_000)]],
         Says("width and height of the unit"),
     ]
-    repeat: Annotated[str, Says('"grid", "half-drop", "brick", "drop p/q" or "brick p/q"')] = "grid"
+    repeat: Annotated[
+        str, Text(_checked_repeat, REPEATS, REPEAT_PATTERN), Says(f"how units stand: {REPEATS}")
+    ] = "grid"
     cut: Annotated[Cut, Says("the rectangle that repeats straight, or one unit")] = Cut.RECTANGLE
 
     def __post_init__(self) -> None:
@@ -76,7 +86,9 @@ def parse_repeat(text: str) -> tuple[Fraction, DropAxis]:
         return _NAMED[words]
     match = _DROP.match(words)
     if match is None:
-        raise GeometryError(f'repeat "{text}": expected "grid", "half-drop", "brick", "drop p/q" or "brick p/q"')
+        raise GeometryError(
+            f'repeat "{text}": expected "grid", "half-drop", "brick", "drop p/q" or "brick p/q"'
+        )
     p, q = int(match[2]), int(match[3])
     if q == 0 or q > MAX_DENOMINATOR:
         raise GeometryError(f'repeat "{text}": expected a drop p/q with q from 1 to {MAX_DENOMINATOR}')

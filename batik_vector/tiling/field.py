@@ -81,7 +81,11 @@ def _spread(
 
 
 def _in_mm(marks: Geometries) -> Geometries:
-    return np.asarray(shapely.transform(marks, lambda xy: xy / STEPS_PER_MM), dtype=object) if len(marks) else marks
+    return (
+        np.asarray(shapely.transform(marks, lambda xy: xy / STEPS_PER_MM), dtype=object)
+        if len(marks)
+        else marks
+    )
 
 
 def _on_seam(marks: Geometries, cell: Cell) -> NDArray[np.bool_]:

@@ -69,7 +69,9 @@ class Julian(Layout):
     """
 
     power: Annotated[int, Between(-64, 64), Says("number of flowers", "P1")] = 4
-    dist: Annotated[float, Between(-64, 64), Says("how they bend; equal to power they keep their shape", "P2")] = 4.0
+    dist: Annotated[
+        float, Between(-64, 64), Says("how they bend; equal to power they keep their shape", "P2")
+    ] = 4.0
     level: Annotated[int, Between(0, 100_000), Says("how often the spreading is repeated")] = 1
     shift: Annotated[Pair, Says("move before each spreading", "dx, dy")] = (4 / 3, 4 / 3)
     turn: Annotated[float, Between(-360, 360), Says("degrees the motif is turned first")] = 0.0
@@ -77,7 +79,9 @@ class Julian(Layout):
 
     def images(self, cell: tuple[float, float]) -> list[Affine] | Bend:
         """``level`` times moved and spread."""
-        spread = FlameMap(pre=Affine.translation(self.shift), terms=((1.0, JuliaN(self.power, self.dist, self.reading)),))
+        spread = FlameMap(
+            pre=Affine.translation(self.shift), terms=((1.0, JuliaN(self.power, self.dist, self.reading)),)
+        )
         return _carried(Affine.turn(self.turn), Ifs((spread,), self.level))
 
 
@@ -103,7 +107,9 @@ class Ring(Layout):
 class Mirror(Layout):
     """The motif and its mirror image."""
 
-    axis: Annotated[float, Between(-360, 360), Says("direction of the mirror in degrees; 90 is upright")] = 90.0
+    axis: Annotated[float, Between(-360, 360), Says("direction of the mirror in degrees; 90 is upright")] = (
+        90.0
+    )
     shift: Annotated[Pair, Says("move of the motif away from the mirror")] = (1.0, 0.0)
     turn: Annotated[float, Between(-360, 360), Says("degrees the motif is turned first")] = 0.0
 
@@ -186,11 +192,14 @@ class Lattice(Layout):
         ]
 
 
+AnyVariation: TypeAlias = Annotated[Variation, OneOf(lambda: VARIATIONS, "variation")]
+
+
 @dataclass(frozen=True, kw_only=True)
 class Term:
     """One weighted variation of a map."""
 
-    variation: Annotated[Variation, OneOf(lambda: VARIATIONS, "variation"), Says("the variation V_j")]
+    variation: Annotated[AnyVariation, Says("the variation V_j")]
     weight: Annotated[float, Between(-100, 100), Says("its weight", "v_ij")] = 1.0
 
     def __post_init__(self) -> None:

@@ -82,8 +82,8 @@ def _rejoined(
     kept, kept_names = [lines[~touched]], [names[~touched]]
     for name in np.unique(names_of):
         mine = names_of == name
-        strokes = shapely.linestrings(np.stack([begins[mine], stops[mine]], axis=1).astype(float))
-        joined = shapely.get_parts(shapely.line_merge(shapely.multilinestrings(strokes)))
+        strokes = [shapely.LineString(ends) for ends in np.stack([begins[mine], stops[mine]], axis=1)]
+        joined = shapely.get_parts(shapely.line_merge(shapely.MultiLineString(strokes)))
         kept.append(joined)
         kept_names.append(np.full(len(joined), name, np.intp))
     return np.concatenate(kept), np.concatenate(kept_names)

@@ -46,7 +46,9 @@ def line_ends(lines: Geometries, axis: int, value: int) -> Steps:
     if not len(lines):
         return np.empty(0, np.int64)
     open_ = lines[~shapely.is_closed(lines)]
-    ends = shapely.get_coordinates(np.concatenate([shapely.get_point(open_, 0), shapely.get_point(open_, -1)]))
+    ends = shapely.get_coordinates(
+        np.concatenate([shapely.get_point(open_, 0), shapely.get_point(open_, -1)])
+    )
     return np.sort(ends[ends[:, axis] == value, 1 - axis].astype(np.int64))
 
 
@@ -89,7 +91,7 @@ def symmetric_difference(a: Intervals, b: Intervals) -> Intervals:
     """Return what exactly one of two interval sets covers."""
     cuts, times = np.unique(np.concatenate([a.ravel(), b.ravel()]), return_counts=True)
     odd = cuts[times % 2 == 1]
-    return odd.reshape(-1, 2)
+    return np.asarray(odd.reshape(-1, 2))
 
 
 def on_seam(areas: Geometries, window: Window) -> NDArray[np.int64]:

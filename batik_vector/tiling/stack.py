@@ -19,7 +19,16 @@ from batik_vector.errors import SeamError
 from batik_vector.geometry.regions import oriented
 from batik_vector.tiling import seams
 from batik_vector.tiling.once import drawn_once
-from batik_vector.tiling.torus import Lattice, Window, clip_areas, clip_lines, polygons_of, to_step_grid, translate, wrap
+from batik_vector.tiling.torus import (
+    Lattice,
+    Window,
+    clip_areas,
+    clip_lines,
+    polygons_of,
+    to_step_grid,
+    translate,
+    wrap,
+)
 from batik_vector.units import STEPS_PER_MM
 
 PHASES = 6
@@ -109,19 +118,23 @@ def _assemble_on(
             if above and len(strokes.geometries):
                 # A line ends where its body, and not its centre, meets the gap.
                 shapes = [_cutting_shape(upper, tolerance, sheet.ink.width / 2) for upper in above]
-                strokes = _cut_lines(strokes, torus.areas(np.concatenate(shapes), 0).geometries)
+                bodies, _ = _welded(torus.areas(np.concatenate(shapes), 0).geometries)
+                strokes = _cut_lines(strokes, bodies)
             areas[sheet.ink.name].extend(_cut(drawn, cutters))
             lines[sheet.ink.name].extend(strokes)
         if sheet.gap is not None:
             above.append(sheet)
-            cutters = np.concatenate([cutters, torus.areas(_cutting_shape(sheet, tolerance, 0.0), 0).geometries])
+            shape = torus.areas(_cutting_shape(sheet, tolerance, 0.0), 0).geometries
+            cutters, _ = _welded(np.concatenate([cutters, shape]))
     names = [sheet.name for sheet in sheets]
     layers = []
     for ink in inks:
         merged = _merge(areas[ink.name], ink.overlap)
         if not torus.seam_holds(merged.geometries):
             return None
-        layers.append(_layer(ink, merged, drawn_once(lines[ink.name].geometries, lines[ink.name].names), names))
+        layers.append(
+            _layer(ink, merged, drawn_once(lines[ink.name].geometries, lines[ink.name].names), names)
+        )
     return tuple(layer for layer in layers if len(layer.areas) or len(layer.lines))
 
 
@@ -175,16 +188,34 @@ def _cutting_shape(sheet: Sheet, tolerance: float, extra: float) -> Geometries:
     return np.concatenate(parts) if parts else _none()
 
 
+def _welded(areas: Geometries) -> tuple[Geometries, NDArray[np.intp]]:
+    """Join the areas that meet; return them with the index of the first area that each is made of."""
+    index = np.arange(len(areas))
+    if len(areas) < 2:
+        return areas, index
+    a, b = shapely.STRtree(areas).query(areas, predicate="intersects")
+    meeting = np.unique(a[a != b])
+    if not len(meeting):
+        return areas, index
+    union = np.array([shapely.union_all(areas[meeting], grid_size=1.0)], dtype=object)
+    joined, _ = polygons_of(union, np.zeros(1, np.intp))
+    point, host = shapely.STRtree(joined).query(shapely.point_on_surface(areas[meeting]), predicate="intersects")
+    first = np.full(len(joined), len(meeting), np.intp)
+    np.minimum.at(first, host, point)
+    first[first == len(meeting)] = 0
+    alone = np.ones(len(areas), bool)
+    alone[meeting] = False
+    return np.concatenate([areas[alone], joined]), np.concatenate([index[alone], meeting[first]])
+
+
 def _cutters_of(marks: Geometries, cutters: Geometries) -> tuple[NDArray[np.intp], Geometries]:
-    """Return which marks are touched by cutters, and for each the union of those that touch it."""
+    """Return which marks are touched by cutters (which do not overlap), and for each those that touch it."""
     mark, cutter = shapely.STRtree(cutters).query(marks, predicate="intersects")
     order = np.lexsort([cutter, mark])
-    rows, start, counts = np.unique(mark[order], return_index=True, return_counts=True)
-    table = np.full((len(rows), int(counts.max(initial=0))), None, dtype=object)
-    column = np.arange(len(order)) - np.repeat(start, counts)
-    table[np.repeat(np.arange(len(rows)), counts), column] = cutters[cutter[order]]
-    # Without a grid: three times as fast, and the cut itself brings what it makes onto the grid.
-    return rows, np.asarray(shapely.union_all(table, axis=1), dtype=object)
+    rows, number = np.unique(mark[order], return_inverse=True)
+    if not len(rows):
+        return rows, np.empty(0, dtype=object)
+    return rows, np.asarray(shapely.multipolygons(cutters[cutter[order]], indices=number), dtype=object)
 
 
 def _cut(marks: _Marks, cutters: Geometries) -> _Marks:
@@ -197,7 +228,9 @@ def _cut(marks: _Marks, cutters: Geometries) -> _Marks:
     whole = np.ones(len(marks.geometries), bool)
     whole[rows] = False
     pieces, names = polygons_of(left, marks.names[rows])
-    return _Marks(np.concatenate([marks.geometries[whole], pieces]), np.concatenate([marks.names[whole], names]))
+    return _Marks(
+        np.concatenate([marks.geometries[whole], pieces]), np.concatenate([marks.names[whole], names])
+    )
 
 
 def _cut_lines(marks: _Marks, cutters: Geometries) -> _Marks:
@@ -226,29 +259,19 @@ def _merge(marks: _Marks, overlap: Overlap) -> _Marks:
         _, first = np.unique(shapely.to_wkb(shapely.normalize(areas)), return_index=True)
         first.sort()
         return _Marks(areas[first], marks.names[first])
-    a, b = shapely.STRtree(areas).query(areas, predicate="intersects")
-    meeting = np.unique(a[a != b])
-    if not len(meeting):
-        return marks
-    alone = np.ones(len(areas), bool)
-    alone[meeting] = False
-    welded, _ = polygons_of(
-        np.array([shapely.union_all(areas[meeting], grid_size=1.0)], dtype=object), np.zeros(1, np.intp)
-    )
-    point, host = shapely.STRtree(welded).query(shapely.point_on_surface(areas[meeting]), predicate="intersects")
-    first = np.full(len(welded), len(meeting), np.intp)
-    np.minimum.at(first, host, point)
-    first[first == len(meeting)] = 0
-    return _Marks(
-        np.concatenate([areas[alone], welded]), np.concatenate([marks.names[alone], marks.names[meeting][first]])
-    )
+    welded, first = _welded(areas)
+    return _Marks(welded, marks.names[first])
 
 
 def _layer(ink: Ink, areas: _Marks, lines: tuple[Geometries, NDArray[np.intp]], names: list[str]) -> Layer:
     """Return a layer in mm from marks in grid steps."""
 
     def in_mm(marks: Geometries) -> Geometries:
-        return np.asarray(shapely.transform(marks, lambda xy: xy / STEPS_PER_MM), dtype=object) if len(marks) else marks
+        return (
+            np.asarray(shapely.transform(marks, lambda xy: xy / STEPS_PER_MM), dtype=object)
+            if len(marks)
+            else marks
+        )
 
     polygons = oriented(areas.geometries) if len(areas.geometries) else areas.geometries
     return Layer(

@@ -46,12 +46,12 @@ def to_step_grid(marks: Geometries) -> Geometries:
     """
     if not len(marks):
         return marks
-    snapped = shapely.transform(marks, lambda xy: np.rint(xy * STEPS_PER_MM) + 0.0)
-    snapped = shapely.remove_repeated_points(snapped)
-    broken = ~shapely.is_valid(snapped)
-    if broken.any():
-        mended = shapely.set_precision(shapely.make_valid(shapely.transform(marks[broken], lambda xy: xy * STEPS_PER_MM)), 1.0)
-        snapped[broken] = mended
+    scaled = shapely.transform(marks, lambda xy: xy * STEPS_PER_MM)
+    snapped = np.asarray(shapely.transform(scaled, np.rint), dtype=object)
+    sound = shapely.is_valid(snapped)
+    snapped[sound] = shapely.remove_repeated_points(snapped[sound])
+    if not sound.all():
+        snapped[~sound] = shapely.set_precision(shapely.make_valid(scaled[~sound]), 1.0)
     return snapped
 
 
@@ -61,7 +61,10 @@ def polygons_of(marks: Geometries, names: NDArray[np.intp]) -> tuple[Geometries,
     deep = shapely.get_type_id(parts) == shapely.GeometryType.GEOMETRYCOLLECTION
     if deep.any():
         inner, inner_owner = shapely.get_parts(parts[deep], return_index=True)
-        parts, owner = np.concatenate([parts[~deep], inner]), np.concatenate([owner[~deep], owner[deep][inner_owner]])
+        parts, owner = (
+            np.concatenate([parts[~deep], inner]),
+            np.concatenate([owner[~deep], owner[deep][inner_owner]]),
+        )
     good = (shapely.get_type_id(parts) == shapely.GeometryType.POLYGON) & ~shapely.is_empty(parts)
     return parts[good], names[owner[good]]
 
@@ -244,5 +247,15 @@ def _runs(coords: Steps, offsets: Steps, window: Window) -> tuple[Geometries, ND
     owner = np.searchsorted(offsets, first, side="right") - 1
     if not len(first):
         return np.empty(0, object), np.empty(0, np.intp)
-    lines = shapely.linestrings(coords[index].astype(float), indices=np.repeat(np.arange(len(first)), counts))
-    return np.asarray(lines, dtype=object), owner
+    lines = np.asarray(
+        shapely.linestrings(coords[index].astype(float), indices=np.repeat(np.arange(len(first)), counts)),
+        dtype=object,
+    )
+    # A ring that begins inside the window falls into one stretch too many: its last goes on in its first.
+    opens = np.flatnonzero((first == offsets[owner]) & (coords[first] == coords[offsets[owner + 1] - 1]).all(axis=1))
+    closes = np.searchsorted(owner, owner[opens], side="right") - 1
+    whole = (last[closes] == offsets[owner[opens] + 1] - 1) & (opens != closes)
+    opens, closes = opens[whole], closes[whole]
+    for head, tail in zip(opens, closes, strict=True):
+        lines[head] = shapely.LineString([*lines[tail].coords, *lines[head].coords[1:]])
+    return np.delete(lines, closes), np.delete(owner, closes)

@@ -12,6 +12,10 @@ from batik_vector.fields import check
 from batik_vector.geometry.sampling import REFINE_SHARE, Array, Indices, Points, refine, thin
 
 
+LEAST_CORNERS = 6
+"""Vertices that a ring keeps however coarse the tolerance."""
+
+
 class Curve:
     """A plane curve drawn once by ``at(t)`` for t in [0, 1].
 
@@ -92,19 +96,21 @@ def _sample(curve: Curve, tolerance: float | Callable[[Points], Array]) -> tuple
     def evaluate(_: Indices, t: Array) -> Points:
         return curve.at(t)
 
-    varying = callable(tolerance)
-    fine = tolerance if varying else tolerance * REFINE_SHARE
+    fine = tolerance if callable(tolerance) else tolerance * REFINE_SHARE
     _, t = refine(evaluate, np.zeros(len(starts) - 1, np.intp), starts[:-1], starts[1:], fine)
     t = np.append(t, 1.0)
     points = curve.at(t)
-    if varying:
+    if callable(tolerance):
         return t, points
     keep = thin(
         points,
         np.array([0, len(points)], np.intp),
-        float(tolerance) * (1 - REFINE_SHARE),  # type: ignore[arg-type]
+        tolerance * (1 - REFINE_SHARE),
         np.isin(t, knots),
     )
+    if curve.closed and keep.sum() <= LEAST_CORNERS:
+        # So small, or the tolerance so coarse, that the ring would be a sliver: it keeps a shape.
+        keep[np.linspace(0, len(t) - 1, LEAST_CORNERS + 1).round().astype(np.intp)] = True
     return t[keep], points[keep]
 
 

@@ -13,7 +13,9 @@ from batik_vector.geometry.curves.base import Curve
 from batik_vector.geometry.sampling import Array, Points
 
 Wave: TypeAlias = tuple[
-    Annotated[int, Between(0, 256)], Annotated[float, Between(-1e3, 1e3)], Annotated[float, Between(-360, 360)]
+    Annotated[int, Between(0, 256)],
+    Annotated[float, Between(-1e3, 1e3)],
+    Annotated[float, Between(-360, 360)],
 ]
 """Frequency (times per period), amplitude, phase in degrees: amplitude · cos(frequency · t + phase)."""
 
@@ -40,7 +42,9 @@ class Polar(Curve):
     """Polar curve r(θ) = radius + Σ amplitude·cos(frequency·θ + phase), drawn over [0, 2π)."""
 
     radius: Annotated[float, Between(-1e3, 1e3), Says("mean radius")] = 1.0
-    waves: Annotated[tuple[Wave, ...], Says("waves on the radius: [frequency, amplitude, phase°]")] = ((8, 0.1, 0.0),)
+    waves: Annotated[tuple[Wave, ...], Says("waves on the radius: [frequency, amplitude, phase°]")] = (
+        (8, 0.1, 0.0),
+    )
 
     def __post_init__(self) -> None:
         check(self)

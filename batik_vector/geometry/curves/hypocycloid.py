@@ -64,4 +64,4 @@ class Hypocycloid(Curve):
 
     def turns(self) -> Array:
         """The angles of the copies."""
-        return np.arange(self.copies) * (2 * np.pi / self.m)
+        return np.asarray(np.arange(self.copies) * (2 * np.pi / self.m), float)

@@ -46,7 +46,7 @@ class Polygon(_Corners):
     def corners(self) -> Points:
         """Return the corners, shape (sides, 2)."""
         angle = 2 * np.pi * np.arange(self.sides) / self.sides
-        return self.radius * np.column_stack([np.cos(angle), np.sin(angle)])
+        return np.column_stack([self.radius * np.cos(angle), self.radius * np.sin(angle)])
 
 
 @dataclass(frozen=True)
@@ -61,4 +61,4 @@ class Star(_Corners):
         """Return points and notches in turn, shape (2 · points, 2)."""
         angle = np.pi * np.arange(2 * self.points) / self.points
         radius = np.where(np.arange(2 * self.points) % 2 == 0, self.radius, self.inner)
-        return radius[:, None] * np.column_stack([np.cos(angle), np.sin(angle)])
+        return np.column_stack([radius * np.cos(angle), radius * np.sin(angle)])

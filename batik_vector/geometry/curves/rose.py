@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import dataclass
 from typing import Annotated
@@ -57,7 +58,7 @@ class Rose(Curve):
     def loops(self) -> list[tuple[float, float]]:
         """One ring per petal."""
         edges = np.arange(self.petals + 1) / self.petals
-        return [(float(a), float(b)) for a, b in zip(edges[:-1], edges[1:], strict=True)]
+        return [(float(a), float(b)) for a, b in itertools.pairwise(edges)]
 
 
 @dataclass(frozen=True)

@@ -21,7 +21,9 @@ class Superellipse(Curve):
     """
 
     a: Annotated[float, Between(0.02, 50), Says("how full the leaf is towards its tips", "a")] = 0.2
-    b: Annotated[float, Between(0.02, 50), Says("how pointed the tips are; above 1 they are cusps", "b")] = 10.0
+    b: Annotated[float, Between(0.02, 50), Says("how pointed the tips are; above 1 they are cusps", "b")] = (
+        10.0
+    )
     length: Annotated[float, Between(1e-3, 1e3), Says("half the long axis", "r1 = 2l")] = 1.0
     width: Annotated[float, Between(1e-3, 1e3), Says("half the short axis", "r2 = l/2")] = 0.25
 

@@ -1,4 +1,4 @@
-"""Maps of the plane: the catalogue. A new variation is a file beside this one and a line in ``VARIATIONS``."""
+"""Maps of the plane: the catalogue. A new variation is a file beside this one, and a line below."""
 
 from __future__ import annotations
 

@@ -68,11 +68,6 @@ class Affine:
             raise GeometryError(f"an affine map needs finite numbers, not {astuple(self)}")
 
     @staticmethod
-    def identity() -> Affine:
-        """The map that moves nothing."""
-        return Affine()
-
-    @staticmethod
     def translation(shift: tuple[float, float]) -> Affine:
         """Move by ``shift``."""
         return Affine(e=float(shift[0]), f=float(shift[1]))
@@ -175,7 +170,7 @@ class Affine:
     def apply(self, geometries: Geometries) -> Geometries:
         """Return the images of shapely geometries, all in one call.
 
-        Polygons keep their outer rings anticlockwise also where the map reflects.
+        Rings of polygons keep their sense also where the map reflects.
 
         Raises:
             GeometryError: where the map flattens the plane.
@@ -190,3 +185,7 @@ class Affine:
             areal = shapely.get_dimensions(images) == 2
             images[areal] = shapely.reverse(images[areal])
         return images
+
+
+IDENTITY = Affine()
+"""The map that moves nothing."""

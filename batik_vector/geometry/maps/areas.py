@@ -3,54 +3,50 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from batik_vector.errors import TooLargeError, TornRingError
+from batik_vector.errors import TornRingError
 from batik_vector.geometry.maps.affine import Complexes, Geometries
 from batik_vector.geometry.maps.chains import Angles, Chains, prepare, unwrap
-from batik_vector.geometry.maps.flame import FlameMap, Images, Tolerance, core_tolerance
+from batik_vector.geometry.maps.flame import NO_IMAGES, FlameMap, Images, Tolerance, core_tolerance
 from batik_vector.geometry.maps.settle import (
     chains_of,
-    parts_of,
     points_of,
     polygons_of,
     settle,
-    thin_polygons,
 )
+from batik_vector.geometry.maps.thinning import ever_finer
 from batik_vector.geometry.maps.trace import Traced, trace_images
-from batik_vector.geometry.sampling import REFINE_SHARE, Indices
-
-MAX_CELLS = 1_000_000
-"""Pieces into which folds may cut the regions of one call."""
-
-UNION_GRID = 1 / 1000
-"""Relative to the tolerance: pieces on the two sides of a fold are welded on this grid, so that the
-rounding of their common edge leaves no slit."""
+from batik_vector.geometry.sampling import Indices, Points
 
 
 def area_images(flame: FlameMap, polygons: Geometries, tolerance: Tolerance) -> Images:
     """Return the images of polygons under a map: see :meth:`FlameMap.areas`."""
     if not len(polygons):
-        none = np.empty(0, np.intp)
-        return Images(polygons, none, none)
+        return NO_IMAGES
     tolerance = core_tolerance(flame, tolerance)
     inner = flame.pre.apply(polygons)
     if any(variation.folds for _, variation in flame.terms):
-        images = _folded(flame, inner, tolerance)
+        from batik_vector.geometry.maps.folds import folded_images
+
+        images = folded_images(flame, inner, tolerance)
     else:
-        images = _regions(flame, inner, tolerance, thinning=not callable(tolerance))
+        images = regions(flame, inner, tolerance, thinning=not callable(tolerance))
     found = shapely.orient_polygons(flame.post.apply(images.geometries))
     order = np.lexsort((images.source, images.branch))
     return Images(found[order], images.source[order], images.branch[order])
 
 
-def _regions(flame: FlameMap, polygons: Geometries, tolerance: Tolerance, thinning: bool) -> Images:
+def regions(flame: FlameMap, polygons: Geometries, tolerance: Tolerance, thinning: bool) -> Images:
     """Map regions whose boundaries are mapped without folding."""
     chains, holes = chains_of(polygons)
-    chains = prepare(chains, flame)
+    chains, holes = _with_area(prepare(chains, flame), holes)
+    if not len(chains):
+        return NO_IMAGES
     angles, around = None, np.zeros(len(polygons), bool)
     if flame.poles or flame.sheets > 1:
         chains, touching = _from_origin(chains)
@@ -75,6 +71,15 @@ def _regions(flame: FlameMap, polygons: Geometries, tolerance: Tolerance, thinni
     if whole.any():
         found.append(_round_origin(flame, chains.take(whole), turns[whole], tolerance, thinning))
     return Images(*(np.concatenate(column) for column in zip(*found, strict=True)))
+
+
+def _with_area(chains: Chains, holes: NDArray[np.bool_]) -> tuple[Chains, NDArray[np.bool_]]:
+    """Leave out rings that shrank into the origin: slivers no wider than a rounding step."""
+    gone = np.diff(chains.offsets) < 4
+    if not gone.any():
+        return chains, holes
+    gone |= np.isin(chains.owner, chains.owner[gone & ~holes])
+    return chains.take(~gone), holes[~gone]
 
 
 def _from_origin(chains: Chains) -> tuple[Chains, NDArray[np.bool_]]:
@@ -121,7 +126,7 @@ def _plain(
     found, source, branches = [], [], []
     for branch in range(1 if single else flame.branches):
         traced = trace_images(flame, chains, angles, branch, tolerance, thinning)
-        images, owner = _built(flame, traced, chains.owner)
+        images, owner = _built(flame, traced, chains.owner, tolerance if thinning else None)
         for turn in range(flame.branches if single else 1):
             spin = flame.terms[0][1].spin(turn) if single else 1 + 0j
             turned, kept = _spun(images, owner, spin)
@@ -131,17 +136,25 @@ def _plain(
     return Images(np.concatenate(found), np.concatenate(source), np.concatenate(branches))
 
 
-def _built(flame: FlameMap, traced: Traced, owner: Indices) -> tuple[Geometries, Indices]:
+def _built(
+    flame: FlameMap, traced: Traced, owner: Indices, tolerance: Tolerance | None
+) -> tuple[Geometries, Indices]:
     """Return valid polygons from traced rings, and their owners."""
     by_size = bool(flame.poles)
     polygons = polygons_of(*traced.thinned(), owner, by_size)
     index = np.unique(owner)
     bad = ~shapely.is_valid(polygons)
-    if not bad.any():
-        return polygons, index
-    # What the thinning broke is whole before it.
-    dense = Chains(traced.image, traced.offsets, owner).take(np.isin(owner, index[bad]))
-    polygons[bad] = polygons_of(dense.z, dense.offsets, dense.owner, by_size)
+    if bad.any() and tolerance is not None and not callable(tolerance):
+        # What the thinning broke is whole before it.
+        part = Chains(traced.image, traced.offsets, owner)
+        for keep in ever_finer(part.z, part.offsets, tolerance, np.ones(len(owner), bool)):
+            which = np.isin(owner, index[bad])
+            offsets = np.concatenate([[0], np.cumsum(keep)]).astype(np.intp)[part.offsets]
+            finer = Chains(part.z[keep], offsets, owner).take(which)
+            polygons[bad] = polygons_of(finer.z, finer.offsets, finer.owner, by_size)
+            bad[bad] = ~shapely.is_valid(polygons[bad])
+            if not bad.any():
+                break
     return _valid(polygons, index, injective=len(flame.terms) == 1)
 
 
@@ -165,15 +178,15 @@ def _spun(polygons: Geometries, index: Indices, spin: complex) -> tuple[Geometri
         return polygons, index
 
     def turn(
-        points: np.ndarray[tuple[int, int], np.dtype[np.float64]],
-    ) -> np.ndarray[tuple[int, int], np.dtype[np.float64]]:
+        points: Points,
+    ) -> Points:
         return points_of(points_as_complex(points) * spin)
 
     turned = np.asarray(shapely.transform(polygons, turn), dtype=object)
     return _valid(turned, index, injective=True)
 
 
-def points_as_complex(points: np.ndarray[tuple[int, int], np.dtype[np.float64]]) -> Complexes:
+def points_as_complex(points: Points) -> Complexes:
     """Return points, shape (n, 2), as complex numbers."""
     return np.ascontiguousarray(points, np.float64).view(np.complex128)[:, 0]
 
@@ -213,7 +226,7 @@ def _sheet_by_ray(chains: Chains, angles: Angles, hole: int, shell: int) -> int:
         radius = a.real - a.imag * (b.real - a.real) / (b.imag - a.imag)
     crossing &= radius >= abs(at) * (1 - 1e-12)
     nearest = e[crossing][np.argmin(radius[crossing])]
-    return round((angles.middle[nearest] - float(np.angle(at))) / (2 * math.pi))
+    return round(float(angles.middle[nearest] - np.angle(at)) / (2 * math.pi))
 
 
 def _round_origin(
@@ -221,101 +234,38 @@ def _round_origin(
 ) -> Images:
     """Map regions whose shell winds round the branch point: one image each, on all branches together."""
     variation = flame.terms[0][1]
-    traced = trace_images(flame, chains, unwrap(chains), 0, tolerance, thinning)
     spins = [variation.spin(k) for k in range(variation.sheets)]
-
-    def polygon(which: Indices, dense: bool) -> shapely.Polygon:
-        rings = []
-        for i in which:
-            ring = traced.chain(int(i), dense)
-            if turns[i] == 0:
-                rings += [points_of(ring * spin) for spin in spins]
-            else:
-                turned = [ring[:-1] * spins[turns[i] * k % len(spins)] for k in range(len(spins))]
-                rings.append(points_of(np.concatenate([*turned, ring[:1]])))
-        if flame.poles:
-            rings.sort(key=lambda ring: -abs(shapely.area(shapely.Polygon(ring))))
-        return shapely.Polygon(rings[0], rings[1:])
+    traced = trace_images(flame, chains, unwrap(chains), 0, tolerance, thinning)
 
     found, source = [], []
     for owner in np.unique(chains.owner):
         which = np.flatnonzero(chains.owner == owner)
-        image = polygon(which, dense=False)
-        if not image.is_valid:
-            image = polygon(which, dense=True)
+        image = _wound(flame, [traced.chain(int(i)) for i in which], turns[which], spins)
+        if not image.is_valid and thinning and not callable(tolerance):
+            part = Chains(traced.image, traced.offsets, chains.owner).take(which)
+            for keep in ever_finer(part.z, part.offsets, tolerance, turns[which] == 0):
+                rings = [part.z[a:b][keep[a:b]] for a, b in pairwise(part.offsets)]
+                image = _wound(flame, rings, turns[which], spins)
+                if image.is_valid:
+                    break
         parts = np.array([image], dtype=object) if image.is_valid else settle(image, injective=True)
         found.append(parts)
         source += [owner] * len(parts)
     return Images(np.concatenate(found), np.array(source, np.intp), np.zeros(len(source), np.intp))
 
 
-def _folded(flame: FlameMap, polygons: Geometries, tolerance: Tolerance) -> Images:
-    """Cut regions at the folds, map the pieces, and weld the images of each region."""
-    pieces, owner = _cut_at_creases(flame, polygons)
-    images = _regions(flame, pieces, tolerance, thinning=False)
-    source = owner[images.source]
-    found, sources, branches = [], [], []
-    vertices = points_of(chains_of(images.geometries)[0].z)
-    finest = tolerance
-    if callable(tolerance):
-        finest = float(tolerance(vertices).min(initial=np.inf))
-    order = np.lexsort((source, images.branch))
-    key = np.column_stack([images.branch, source])[order]
-    starts = np.flatnonzero(np.r_[True, (key[1:] != key[:-1]).any(axis=1)]) if len(key) else []
-    for group in np.split(order, starts[1:]) if len(key) else []:
-        parts = images.geometries[group]
-        if len(parts) > 1:
-            parts = parts_of(shapely.union_all(parts, grid_size=finest * UNION_GRID))
-        if not callable(tolerance):
-            parts = thin_polygons(parts, tolerance * (1 - REFINE_SHARE - UNION_GRID))
-        found.append(parts)
-        sources.append(np.full(len(parts), source[group[0]], np.intp))
-        branches.append(np.full(len(parts), images.branch[group[0]], np.intp))
-    if not found:
-        none = np.empty(0, np.intp)
-        return Images(np.empty(0, object), none, none)
-    return Images(np.concatenate(found), np.concatenate(sources), np.concatenate(branches))
+def _wound(flame: FlameMap, rings: list[Complexes], turns: Indices, spins: list[complex]) -> shapely.Polygon:
+    """Return the one image of a region round the branch point from one turn of each of its rings.
 
-
-def _cut_at_creases(flame: FlameMap, polygons: Geometries) -> tuple[Geometries, Indices]:
-    """Return the pieces of regions between creases, and the region each comes from."""
-    owner = np.arange(len(polygons), dtype=np.intp)
-    for _, variation in flame.terms:
-        if variation.folds:
-            for axis in (0, 1):
-                bounds = shapely.bounds(polygons)
-                creases = variation.creases(float(bounds.min()) - 1e-9, float(bounds.max()) + 1e-9)
-                polygons, kept = _cut_across(polygons, creases, axis)
-                owner = owner[kept]
-    return polygons, owner
-
-
-def _cut_across(
-    polygons: Geometries, creases: np.ndarray[tuple[int], np.dtype[np.float64]], axis: int
-) -> tuple[Geometries, Indices]:
-    """Cut polygons at x = c (axis 0) or y = c (axis 1)."""
-    bounds = shapely.bounds(polygons)
-    low, high = bounds[:, axis], bounds[:, axis + 2]
-    first = np.searchsorted(creases, low, side="right")
-    count = np.maximum(np.searchsorted(creases, high, side="left") - first, 0) + 1
-    if count.sum() > MAX_CELLS:
-        raise TooLargeError(f"a shape is folded into {int(count.sum()):,} pieces: make it smaller")
-    index = np.repeat(np.arange(len(polygons)), count)
-    rank = np.arange(len(index)) - np.repeat(np.cumsum(count) - count, count)
-    walls = np.concatenate([creases, [np.inf]])
-    start = np.where(rank == 0, low[index] - 1, walls[np.maximum(first[index] + rank - 1, 0)])
-    stop = np.where(rank == count[index] - 1, high[index] + 1, walls[first[index] + rank])
-    other_low, other_high = bounds[index, 1 - axis] - 1, bounds[index, 3 - axis] + 1
-    boxes = (
-        shapely.box(start, other_low, stop, other_high)
-        if axis == 0
-        else shapely.box(other_low, start, other_high, stop)
-    )
-    cut = count[index] > 1
-    pieces = polygons[index]
-    pieces[cut] = shapely.intersection(pieces[cut], boxes[cut])
-    parts, own = shapely.get_parts(pieces, return_index=True)
-    inner, again = shapely.get_parts(parts, return_index=True)
-    own = own[again]
-    solid = (shapely.get_dimensions(inner) == 2) & (shapely.area(inner) > 0)
-    return np.asarray(inner[solid], dtype=object), index[own[solid]].astype(np.intp)
+    A ring that winds is as many turns long as there are branches; one that does not has an image on each.
+    """
+    found = []
+    for ring, turn in zip(rings, turns, strict=True):
+        if turn == 0:
+            found += [points_of(ring * spin) for spin in spins]
+        else:
+            turned = [ring[:-1] * spins[turn * k % len(spins)] for k in range(len(spins))]
+            found.append(points_of(np.concatenate([*turned, ring[:1]])))
+    if flame.poles:
+        found.sort(key=lambda points: -abs(shapely.area(shapely.Polygon(points))))
+    return shapely.Polygon(found[0], found[1:])

@@ -192,7 +192,7 @@ def _insert_stations(chains: Chains, near: float) -> Chains:
 
 
 def _insert_creases(chains: Chains, creases: Array, turned: bool) -> Chains:
-    """Cut edges at x = c, or y = c when ``turned``, for all creases c; the new vertices lie on them exactly."""
+    """Cut edges at x = c, or y = c when ``turned``, for all creases c, with vertices exactly on them."""
     if not len(creases):
         return chains
     e = chains.edges

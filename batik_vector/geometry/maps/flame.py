@@ -9,9 +9,10 @@ from functools import cached_property
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
+import shapely
 
 from batik_vector.errors import GeometryError
-from batik_vector.geometry.maps.affine import Affine, Complexes, Geometries
+from batik_vector.geometry.maps.affine import IDENTITY, Affine, Complexes, Geometries
 from batik_vector.geometry.maps.base import Variation
 from batik_vector.geometry.sampling import Array, Indices, Points
 
@@ -39,6 +40,9 @@ class Images(NamedTuple):
     branch: Indices
 
 
+NO_IMAGES = Images(np.empty(0, dtype=object), np.empty(0, np.intp), np.empty(0, np.intp))
+
+
 @dataclass(frozen=True)
 class FlameMap:
     """F = post ∘ (Σ_j w_j V_j) ∘ pre, carrying whole curves and regions.
@@ -49,8 +53,8 @@ class FlameMap:
     """
 
     terms: tuple[tuple[float, Variation], ...]
-    pre: Affine = Affine()
-    post: Affine = Affine()
+    pre: Affine = IDENTITY
+    post: Affine = IDENTITY
 
     def __post_init__(self) -> None:
         if not self.terms:
@@ -85,7 +89,7 @@ class FlameMap:
         polygons = np.asarray(polygons, dtype=object)
         affine = self.affine_branches()
         if affine is not None:
-            return _affine_images(affine, polygons)
+            return _affine_images(affine, shapely.orient_polygons(polygons))
         from batik_vector.geometry.maps.areas import area_images
 
         return area_images(self, polygons, tolerance)
@@ -131,10 +135,11 @@ class FlameMap:
             p, q = np.zeros(len(z), complex), np.zeros(len(z), complex)
             for (weight, variation), digit in zip(self.terms, self.digits(branch), strict=True):
                 along, across = variation.wirtinger(z, digit)
-                p, q = p + weight * along, q + weight * across
-            worst = np.maximum(worst, np.abs(p) + np.abs(q))
-        worst = worst * (self.pre.stretch * self.post.stretch)
-        return np.minimum(np.nan_to_num(worst, nan=STRETCH_CAP, posinf=STRETCH_CAP), STRETCH_CAP)
+                with np.errstate(invalid="ignore"):
+                    p, q = p + weight * along, q + weight * across
+            steep = np.nan_to_num(np.abs(p) + np.abs(q), nan=STRETCH_CAP, posinf=STRETCH_CAP)
+            worst = np.maximum(worst, steep)
+        return np.minimum(worst * (self.pre.stretch * self.post.stretch), STRETCH_CAP)
 
     def affine_branches(self) -> list[Affine] | None:
         """Return every branch as an affine map, exactly, or None where one of them bends."""

@@ -144,4 +144,5 @@ class JuliaN(Variation):
         outward = self.exponent * scale * (np.cos(first) + 1j * np.sin(second))
         around = scale * (-slope1 * np.sin(first) + 1j * slope2 * np.cos(second))
         unit = z / r
-        return np.conj(unit) / 2 * (outward - 1j * around), unit / 2 * (outward + 1j * around)
+        along = np.conj(unit) / 2 * (outward - 1j * around)
+        return np.asarray(along), np.asarray(unit / 2 * (outward + 1j * around))

@@ -10,7 +10,7 @@ import shapely
 from batik_vector.errors import TornRingError
 from batik_vector.geometry.maps.affine import Complexes, Geometries
 from batik_vector.geometry.maps.chains import Chains, prepare, unwrap
-from batik_vector.geometry.maps.flame import FlameMap, Images, Tolerance, core_tolerance
+from batik_vector.geometry.maps.flame import NO_IMAGES, FlameMap, Images, Tolerance, core_tolerance
 from batik_vector.geometry.maps.settle import chains_of, points_of
 from batik_vector.geometry.maps.trace import trace_images
 from batik_vector.geometry.sampling import Indices
@@ -18,15 +18,18 @@ from batik_vector.geometry.sampling import Indices
 
 def line_images(flame: FlameMap, lines: Geometries, tolerance: Tolerance) -> Images:
     """Return the images of polylines under a map: see :meth:`FlameMap.lines`."""
-    none = np.empty(0, np.intp)
     if not len(lines):
-        return Images(lines, none, none)
+        return NO_IMAGES
     tolerance = core_tolerance(flame, tolerance)
     chains = prepare(chains_of(flame.pre.apply(lines))[0], flame)
     if flame.poles and (chains.z == 0).any():
         raise TornRingError(
             f"a line runs through the centre of {' + '.join(flame.poles)}, which goes to infinity"
         )
+    # A line no longer than a rounding step may have shrunk into the origin.
+    chains = chains.take(np.diff(chains.offsets) > 1)
+    if not len(chains):
+        return NO_IMAGES
     single = len(flame.terms) == 1
     angles = None
     turns = np.zeros(len(chains), np.intp)

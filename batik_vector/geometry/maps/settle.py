@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 
 from batik_vector.geometry.maps.affine import Complexes, Geometries
 from batik_vector.geometry.maps.chains import Chains
-from batik_vector.geometry.sampling import Array, Indices, Points, thin
+from batik_vector.geometry.maps.thinning import ever_finer
+from batik_vector.geometry.sampling import Array, Indices, Points
 
 
 def chains_of(geometries: Geometries) -> tuple[Chains, NDArray[np.bool_]]:
@@ -37,7 +38,10 @@ def polygons_of(z: Complexes, offsets: Indices, owner: Indices, by_size: bool) -
         owner: ascending; the first ring of each is the shell.
         by_size: the largest ring is the shell instead: for maps that may turn regions inside out.
     """
-    rings = shapely.linearrings(points_of(z), indices=np.repeat(np.arange(len(owner)), np.diff(offsets)))
+    rings: Geometries = np.asarray(
+        shapely.linearrings(points_of(z), indices=np.repeat(np.arange(len(owner)), np.diff(offsets))),
+        dtype=object,
+    )
     if by_size:
         order = np.lexsort((-np.abs(ring_areas(z, offsets)), owner))
         rings = rings[order]
@@ -59,7 +63,8 @@ def parts_of(geometry: shapely.Geometry) -> Geometries:
     """Return the polygons of a geometry that have an area."""
     parts = shapely.get_parts(shapely.get_parts(geometry))
     parts = np.asarray(parts, dtype=object)
-    return parts[(shapely.get_dimensions(parts) == 2) & (shapely.area(parts) > 0)]
+    solid: Geometries = parts[(shapely.get_dimensions(parts) == 2) & (shapely.area(parts) > 0)]
+    return solid
 
 
 def settle(polygon: shapely.Polygon, injective: bool) -> Geometries:
@@ -99,14 +104,17 @@ def winding(points: Points, start: Points, end: Points) -> Indices:
 
 
 def thin_polygons(polygons: Geometries, tolerance: float) -> Geometries:
-    """Return valid polygons with the vertices that the tolerance needs; those it would break stay as they are."""
+    """Return valid polygons with the vertices that the tolerance needs; those it would break stay whole."""
     if not len(polygons):
         return polygons
     chains, _ = chains_of(polygons)
-    keep = thin(points_of(chains.z), chains.offsets, tolerance)
-    small = np.add.reduceat(keep, chains.offsets[:-1]) < 4
-    keep |= np.repeat(small, np.diff(chains.offsets))
-    offsets = np.concatenate([[0], np.cumsum(keep)])[chains.offsets]
-    thinned = polygons_of(chains.z[keep], offsets, chains.owner, by_size=False)
-    valid = shapely.is_valid(thinned)
-    return np.where(valid, thinned, polygons)
+    found = polygons.copy()
+    bad = np.ones(len(polygons), bool)
+    for keep in ever_finer(chains.z, chains.offsets, tolerance, np.ones(len(chains), bool)):
+        offsets = np.concatenate([[0], np.cumsum(keep)]).astype(np.intp)[chains.offsets]
+        part = Chains(chains.z[keep], offsets, chains.owner).take(bad[chains.owner])
+        found[bad] = polygons_of(part.z, part.offsets, part.owner, by_size=False)
+        bad[bad] = ~shapely.is_valid(found[bad])
+        if not bad.any():
+            break
+    return np.where(bad, polygons, found)

@@ -43,4 +43,4 @@ class Sinusoidal(Variation):
 
     def parts(self, start: Complexes, end: Complexes) -> Indices:
         """At most a radian between samples."""
-        return np.maximum(np.ceil(np.abs(end - start)), 1).astype(np.intp)
+        return np.asarray(np.maximum(np.ceil(np.abs(end - start)), 1), np.intp)

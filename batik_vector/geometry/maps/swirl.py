@@ -36,4 +36,4 @@ class Swirl(Variation):
     def parts(self, start: Complexes, end: Complexes) -> Indices:
         """Less than a radian of turn between samples: r² grows by at most 2·r·|dz| along an edge."""
         reach = np.maximum(np.abs(start), np.abs(end))
-        return np.maximum(np.ceil(2 * reach * np.abs(end - start)), 1).astype(np.intp)
+        return np.asarray(np.maximum(np.ceil(2 * reach * np.abs(end - start)), 1), np.intp)

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from batik_vector.geometry.maps.affine import Complexes
 from batik_vector.geometry.maps.chains import Angles, Chains
 from batik_vector.geometry.maps.flame import FlameMap, Tolerance
-from batik_vector.geometry.sampling import REFINE_SHARE, Array, Indices, Points, refine, thin
+from batik_vector.geometry.maps.thinning import thin_chains
+from batik_vector.geometry.sampling import REFINE_SHARE, Array, Indices, Points, refine
 
 __all__ = ["Traced", "trace_images"]
 
@@ -27,10 +28,10 @@ class Traced:
     offsets: Indices
     keep: NDArray[np.bool_]
 
-    def chain(self, i: int, dense: bool = False) -> Complexes:
-        """Return one image."""
+    def chain(self, i: int) -> Complexes:
+        """Return one image, as far as the tolerance needs it."""
         part = slice(self.offsets[i], self.offsets[i + 1])
-        return self.image[part] if dense else self.image[part][self.keep[part]]
+        return self.image[part][self.keep[part]]
 
     def thinned(self) -> tuple[Complexes, Indices]:
         """Return the vertices kept, and their offsets."""
@@ -79,24 +80,12 @@ def trace_images(
     stops = np.searchsorted(piece, chains.last)
     image = np.insert(points.view(np.complex128)[:, 0], stops, ends.view(np.complex128)[:, 0])
     offsets = np.concatenate([[0], stops + np.arange(1, len(chains) + 1)]).astype(np.intp)
-    if angles is None:
-        same = chains.closed
-    else:
-        same = chains.closed & (np.abs(angles.end - angles.start) < math.pi)
-    same &= z[chains.first] != 0
+    same = chains.closed & (z[chains.first] != 0)
+    if angles is not None:
+        # A ring that winds ends on another branch than it begins on.
+        same &= np.abs(angles.end - angles.start) < math.pi
     image[offsets[1:][same] - 1] = image[offsets[:-1][same]]
     keep = np.ones(len(image), bool)
     if thinning and not callable(tolerance) and len(image):
-        flat = image.view(np.float64).reshape(-1, 2)
-        keep = thin(flat, offsets, tolerance * (1 - REFINE_SHARE))
-        keep = _keep_rings(keep, offsets, chains.closed)
+        keep = thin_chains(image, offsets, tolerance * (1 - REFINE_SHARE), chains.closed)
     return Traced(image, offsets, keep)
-
-
-def _keep_rings(keep: NDArray[np.bool_], offsets: Indices, closed: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Leave rings smaller than the tolerance dense: thinned to fewer than three corners they would vanish."""
-    counts = np.add.reduceat(keep, offsets[:-1])
-    small = closed & (counts < 4)
-    if small.any():
-        keep = keep | np.repeat(small, np.diff(offsets))
-    return keep

@@ -1,0 +1,56 @@
+# Plain verbs. On a bare Debian or Ubuntu with python3 (3.11 or later) and make, each of them sets up
+# what it needs by itself, once; `make` alone lists them.
+
+PYTHON ?= python3
+BIN := .venv/bin
+PY := $(BIN)/python
+READY := .venv/.ready
+CLIENTS_READY := .venv/.clients-ready
+WORKERS := -n auto --maxprocesses 8
+
+# The tools' own state must not depend on who calls.
+export PYTHON
+unexport PYTHONPATH PYTHONHOME VIRTUAL_ENV
+
+.PHONY: help demo test test-clients lint format bench golden setup clean
+
+help: ## list these verbs
+	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' $(firstword $(MAKEFILE_LIST)) | expand -t 22
+
+demo: $(READY) ## compile samples/four-square.toml to SVG, PDF, DXF and PNG in out/
+	$(BIN)/batik-vector compile samples/four-square.toml -o out -f svg,pdf,dxf,png
+
+test: $(READY) ## run the tests
+	$(PY) -m pytest $(WORKERS)
+
+test-clients: $(READY) $(CLIENTS_READY) ## open the files in Inkscape, LibreCAD, Chromium, poppler, mupdf, qpdf
+	$(PY) -m pytest $(WORKERS) -m clients tests/clients
+
+lint: $(READY) ## check style and types
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+
+format: $(READY) ## mend the style
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+
+bench: $(READY) ## a million vertices to SVG, PDF and DXF: seconds, bytes, memory
+	$(PY) benchmarks/million.py
+
+golden: $(READY) ## draw the samples' pictures and the gallery again
+	$(PY) tools/golden.py
+
+setup: $(READY) ## set up without doing anything else
+
+$(READY): pyproject.toml tools/setup.sh
+	@tools/setup.sh python
+	@touch $@
+
+$(CLIENTS_READY): tools/setup.sh | $(READY)
+	@tools/setup.sh clients
+	@touch $@
+
+clean: ## remove what was made here, the environment included
+	rm -rf .venv out dist .hypothesis .mypy_cache .pytest_cache .ruff_cache
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +

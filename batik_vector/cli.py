@@ -1,0 +1,265 @@
+"""The command ``batik-vector``. People read stderr; stdout holds what machines read.
+
+What is heavy is imported where it is used, so that ``--help`` answers at once.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NoReturn
+
+import click
+
+from batik_vector._version import __version__
+from batik_vector.errors import BatikError, RecipeError, unknown_name
+
+if TYPE_CHECKING:
+    from batik_vector.jobs import Job
+
+FORMATS = ("svg", "pdf", "dxf", "png")
+"""As in :data:`batik_vector.export.FORMATS`, which a test compares."""
+STARTERS = Path(__file__).parent / "starters"
+SIGPIPE_EXIT, INTERRUPT_EXIT, TERMINATED_EXIT = 141, 130, 143
+
+
+def _complain(words: str) -> None:
+    for line in words.splitlines():
+        click.echo(f"batik-vector: error: {line}", err=True)
+
+
+class _Commands(click.Group):
+    """The commands, with every way they may end told in words and an exit code."""
+
+    def invoke(self, ctx: click.Context) -> Any:
+        try:
+            result = super().invoke(ctx)
+            sys.stdout.flush()
+            return result
+        except BatikError as error:
+            _complain(str(error))
+            ctx.exit(error.exit_code)
+        except KeyboardInterrupt:
+            _complain("interrupted")
+            ctx.exit(INTERRUPT_EXIT)
+        except BrokenPipeError:
+            # Whoever read has gone; what is left in the buffer must not be flushed into the pipe.
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            ctx.exit(SIGPIPE_EXIT)
+        except MemoryError:
+            _complain(
+                "this needs more memory than there is: lower the counts or levels, or allow more tolerance"
+            )
+            ctx.exit(2)
+        except RecursionError:
+            _complain("this is nested too deeply")
+            ctx.exit(2)
+
+
+@click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(__version__, prog_name="batik-vector")
+def cli() -> None:
+    """Compile batik patterns: a recipe goes in, repeatable tiles in true millimetres come out."""
+
+
+def _format_names(_ctx: click.Context, _param: click.Parameter, texts: Sequence[str]) -> list[str]:
+    names = [name.strip().lower() for text in texts for name in text.split(",") if name.strip()]
+    for name in names:
+        if name not in FORMATS:
+            raise click.BadParameter(unknown_name(name, FORMATS, "format"))
+    return names
+
+
+_recipes = click.argument("recipes", nargs=-1, required=True, metavar="RECIPE…")
+_set = click.option(
+    "--set",
+    "overrides",
+    multiple=True,
+    metavar="KEY=VALUE",
+    help="Set a value, as in motif.flower.petal.count=12 or place[0].width='200 mm'.",
+)
+_json = click.option("--json", "as_json", is_flag=True, help="Print one report for machines on stdout.")
+
+
+@cli.command("compile")
+@_recipes
+@click.option(
+    "-o", "folder", default=".", metavar="DIR", help="Where files go; made if missing.  [default: .]"
+)
+@click.option(
+    "-f",
+    "formats",
+    multiple=True,
+    callback=_format_names,
+    metavar="FORMAT,…",
+    help=f"{', '.join(FORMATS)}.  [default: what the recipe asks for, or svg]",
+)
+@_set
+@_json
+def compile_command(
+    recipes: Sequence[str], folder: str, formats: Sequence[str], overrides: Sequence[str], as_json: bool
+) -> None:
+    """Compile recipes to files.
+
+    A RECIPE is a TOML file, or an SVG, PDF, DXF or PNG that was compiled from one. The files of a recipe
+    are written all or not at all, as DIR/NAME.SUFFIX.
+    """
+    from batik_vector.jobs import planned, read_jobs, run
+
+    with _report(as_json) as report:
+        jobs = planned(read_jobs(recipes, overrides), Path(folder), formats)
+        for job, tell in _progress(jobs, as_json):
+            with _each(report):
+                done = run(job, tell)
+                report["recipes"].append(done)
+                _tell_files(done)
+
+
+def _tell_files(done: dict[str, Any]) -> None:
+    for file in done["files"]:
+        width, height = (f"{side:g}" for side in file["size_mm"])
+        size = _bytes(file["bytes"])
+        click.echo(f"{file['path']}  {size}  {width} × {height} mm  {file['seconds']:.2f} s", err=True)
+    for words in done["warnings"]:
+        click.echo(f"{done['recipe']}: warning: {words}", err=True)
+    click.echo(f"{done['recipe']}: {done['vertices']:,} vertices in {done['seconds']:.2f} s", err=True)
+
+
+def _bytes(count: int) -> str:
+    return f"{count / 1e6:.1f} MB" if count >= 1e6 else f"{count / 1e3:.1f} kB"
+
+
+@cli.command("check")
+@_recipes
+@_set
+@_json
+def check_command(recipes: Sequence[str], overrides: Sequence[str], as_json: bool) -> None:
+    """Compile recipes and tell the facts, without writing anything.
+
+    Exits with 1 where the artwork breaks its normal form or opposite edges would not meet.
+    """
+    from batik_vector.compiler import inspect
+    from batik_vector.jobs import made, read_jobs, warnings
+
+    with _report(as_json) as report:
+        for job, tell in _progress(read_jobs(recipes, overrides), as_json):
+            with _each(report):
+                artwork = made(job, tell)
+                facts = {"recipe": job.source, **inspect(artwork), "warnings": warnings(job.recipe, artwork)}
+                report["recipes"].append(facts)
+                _tell_facts(facts)
+                if facts["violations"] or facts["seam"]:
+                    report["exit"] = max(report["exit"], 1)
+
+
+def _tell_facts(facts: dict[str, Any]) -> None:
+    width, height = (f"{side:g}" for side in facts["cell_mm"])
+    straight = "straight" if facts["drop"] == "0" else f"with a drop of {facts['drop']}"
+    lines = [
+        f"{facts['recipe']}: {facts['title']}",
+        f"  tile {width} × {height} mm, repeats {straight}; {facts['vertices']:,} vertices",
+    ]
+    for layer in facts["layers"]:
+        marks = f"{layer['areas']:,} areas, {layer['lines']:,} lines"
+        lines.append(f"  {layer['ink']} ({layer['colour']}): {marks}, covers {100 * layer['covers']:.1f} %")
+    lines += [f"  fault: {words}" for words in facts["violations"]]
+    lines += [
+        f"  fault: {gap['ink']}: {gap['edges']} edges disagree from {gap['from_mm']:g} to {gap['to_mm']:g} mm"
+        for gap in facts["seam"]
+    ]
+    lines += [f"  warning: {words}" for words in facts["warnings"]]
+    if not facts["violations"] and not facts["seam"]:
+        lines.append("  sound: opposite edges agree, nothing is drawn twice")
+    click.echo("\n".join(lines), err=True)
+
+
+@contextmanager
+def _report(as_json: bool) -> Iterator[dict[str, Any]]:
+    """Collect the report of a call; print it if asked to, also where the call fails; exit as it says."""
+    report: dict[str, Any] = {"version": __version__, "exit": 0, "recipes": [], "faults": []}
+    with _each(report):
+        yield report
+    if as_json:
+        click.echo(json.dumps(report, indent=2))
+    if report["exit"]:
+        click.get_current_context().exit(report["exit"])
+
+
+@contextmanager
+def _each(report: dict[str, Any]) -> Iterator[None]:
+    """Tell an error and go on, so that one recipe does not keep back the others."""
+    try:
+        yield
+    except BatikError as error:
+        _complain(str(error))
+        report["exit"] = max(report["exit"], error.exit_code)
+        if isinstance(error, RecipeError):
+            report["faults"] += [vars(fault) for fault in error.faults]
+        else:
+            report["faults"].append({"message": str(error), "key": "", "source": "", "line": None})
+
+
+def _progress(jobs: Sequence[Job], quiet: bool) -> Iterator[tuple[Job, Callable[[str], None]]]:
+    """Yield each job with a function that moves the bar: one step for a stage."""
+    from tqdm import tqdm
+
+    steps = sum(len(job.recipe.place) + 1 + len(job.files) for job in jobs)
+    with tqdm(total=steps, delay=1, disable=True if quiet else None, file=sys.stderr, leave=False) as bar:
+        for job in jobs:
+
+            def tell(stage: str) -> None:
+                bar.set_description(stage, refresh=False)
+                bar.update()
+
+            yield job, tell
+
+
+def _starter_names() -> list[str]:
+    return sorted(path.stem for path in STARTERS.glob("*.toml"))
+
+
+@cli.command("new")
+@click.argument("name", required=False)
+@click.option(
+    "--kind",
+    type=click.Choice(_starter_names()),
+    default="flower",
+    show_default=True,
+    help="What it begins as.",
+)
+@click.option("-o", "path", metavar="FILE", help="The file to write.  [default: NAME.toml]")
+@click.option("--force", is_flag=True, help="Replace a file that is there.")
+def new_command(name: str | None, kind: str, path: str | None, force: bool) -> None:
+    """Write a recipe to begin with: short, commented, ready to compile."""
+    from batik_vector.starting import write_starter
+
+    written = write_starter(STARTERS / f"{kind}.toml", name, path, force)
+    click.echo(f"{written} written. Next: batik-vector compile {written}", err=True)
+
+
+@cli.command("schema")
+def schema_command() -> None:
+    """Print the JSON Schema of recipes, for editors."""
+    from batik_vector.schema import schema
+
+    click.echo(json.dumps(schema(), indent=2))
+
+
+def _terminated(_number: int, _frame: object) -> NoReturn:
+    # As an exception it lets half-written files be cleared away.
+    raise SystemExit(TERMINATED_EXIT)
+
+
+def main() -> None:
+    """Run the command."""
+    signal.signal(signal.SIGTERM, _terminated)
+    cli(prog_name="batik-vector")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,99 @@
+"""The files a recipe asks for: a format, its options, and what of the pattern goes into the file."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, fields
+from typing import Annotated, Any, ClassVar, TypeAlias
+
+from batik_vector.errors import GeometryError
+from batik_vector.export.options import DxfOptions, PdfOptions, PngOptions, SvgOptions
+from batik_vector.fields import Between, Length, OneOf, Says, Text, check
+
+_FILE_WORD = re.compile(r"[\w][\w .+-]{0,79}(?<![ .])\Z")
+Count: TypeAlias = Annotated[int, Between(1, 200)]
+
+
+def parse_file_word(text: str) -> str:
+    """Return a text that may stand in the name of a file on any system.
+
+    Raises:
+        ValueError: with what was expected.
+    """
+    if text and not _FILE_WORD.match(text):
+        raise ValueError("expected letters, digits, spaces and - _ + . only, no folder")
+    return text
+
+
+@dataclass(frozen=True, kw_only=True)
+class OutputSpec:
+    """A file to write. Each format has a class of its own in ``OUTPUTS``, with the options of its writer."""
+
+    format: ClassVar[str] = ""
+    writer: ClassVar[type] = object
+    later: ClassVar[dict[str, str]] = {
+        "process": "processes (print, plot, cut, wax) are not offered yet: leave the key out"
+    }
+
+    name: Annotated[
+        str,
+        Text(parse_file_word, "part of a file name"),
+        Says("added to the file's name, to tell several of one format apart"),
+    ] = ""
+
+    def __post_init__(self) -> None:
+        check(self)
+        try:
+            parse_file_word(self.name)
+        except ValueError as error:
+            raise GeometryError(f'name = "{self.name}", {error}') from None
+
+    @property
+    def options(self) -> Any:
+        """The options of the format's writer, an instance of its own class."""
+        return self.writer(**{field.name: getattr(self, field.name) for field in fields(self.writer)})
+
+
+@dataclass(frozen=True, kw_only=True)
+class SvgOutput(OutputSpec, SvgOptions):
+    """An SVG file: layers for Inkscape, Illustrator and plotters."""
+
+    format = "svg"
+    writer = SvgOptions
+    repeat: Annotated[tuple[Count, Count], Says("how many tiles across and up")] = (1, 1)
+
+
+@dataclass(frozen=True, kw_only=True)
+class PdfOutput(OutputSpec, PdfOptions):
+    """A PDF file: pages 1:1."""
+
+    format = "pdf"
+    writer = PdfOptions
+    bleed: Annotated[
+        Annotated[Length, Between(0, 100)], Says("how far the pattern goes on beyond the trim")
+    ] = 0.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class DxfOutput(OutputSpec, DxfOptions):
+    """A DXF file: closed polylines for cutters and CAD."""
+
+    format = "dxf"
+    writer = DxfOptions
+
+
+@dataclass(frozen=True, kw_only=True)
+class PngOutput(OutputSpec, PngOptions):
+    """A PNG file: a preview for the screen."""
+
+    format = "png"
+    writer = PngOptions
+    repeat: Annotated[tuple[Count, Count], Says("how many tiles across and up")] = (1, 1)
+
+
+OUTPUTS: dict[str, type[OutputSpec]] = {
+    output.format: output for output in (SvgOutput, PdfOutput, DxfOutput, PngOutput)
+}
+"""The catalogue of formats that a recipe may ask for."""
+
+AnyOutput: TypeAlias = Annotated[OutputSpec, OneOf(lambda: OUTPUTS, "output", tag="format")]

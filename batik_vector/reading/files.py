@@ -1,0 +1,105 @@
+"""From a file to a recipe's text: a TOML file, or a file that this program compiled."""
+
+from __future__ import annotations
+
+import os
+import stat
+from difflib import get_close_matches
+from pathlib import Path
+
+from batik_vector.errors import Fault, RecipeError
+
+MAX_TEXT = 1 << 20
+"""Bytes of a recipe. The longest by hand has some thousands."""
+MAX_COMPILED = 512 << 20
+COMPILED = (".svg", ".pdf", ".dxf", ".png")
+_SUFFIXES = (".toml", *COMPILED)
+
+
+def read_text(path: str | os.PathLike[str]) -> str:
+    """Return the text of a recipe, from its own file or from one compiled from it.
+
+    Raises:
+        RecipeError: saying what about the file is wrong.
+    """
+    source = os.fspath(path)
+    try:
+        found = os.stat(path)
+    except (OSError, ValueError) as error:
+        raise _fault(_reason(Path(path), error), source) from error
+    if stat.S_ISDIR(found.st_mode):
+        raise _fault("is a folder, expected a recipe file" + _offer(Path(path)), source)
+    compiled = Path(path).suffix.lower() in COMPILED
+    limit = MAX_COMPILED if compiled else MAX_TEXT
+    if found.st_size > limit:
+        raise _fault(f"{found.st_size:,} bytes, expected at most {limit:,}", source)
+    return _from_compiled(path) if compiled else _from_text(path, source)
+
+
+def _from_compiled(path: str | os.PathLike[str]) -> str:
+    from batik_vector.export.provenance import read_provenance
+
+    text = read_provenance(Path(path)).recipe
+    if not text:
+        raise _fault("was made from Python and carries no recipe", os.fspath(path))
+    if len(text) > MAX_TEXT:
+        raise _fault(
+            f"its recipe has {len(text):,} characters, expected at most {MAX_TEXT:,}", os.fspath(path)
+        )
+    return text
+
+
+def _from_text(path: str | os.PathLike[str], source: str) -> str:
+    try:
+        with open(path, "rb") as file:
+            # One byte more than allowed: pipes and devices do not tell their size.
+            data = file.read(MAX_TEXT + 1)
+    except OSError as error:
+        raise _fault(_reason(Path(path), error), source) from error
+    if len(data) > MAX_TEXT:
+        raise _fault(f"more than {MAX_TEXT:,} bytes, expected a recipe", source)
+    return decoded(data, source)
+
+
+def decoded(data: bytes, source: str) -> str:
+    """Return bytes as text with the line ends of Unix.
+
+    Raises:
+        RecipeError: with the line of the first byte that is no UTF-8.
+    """
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = data.count(b"\n", 0, error.start) + 1
+        raise RecipeError(
+            [Fault("is no text in UTF-8, expected a recipe in TOML", "", source, line)]
+        ) from error
+    return text.replace("\r\n", "\n")
+
+
+def _reason(path: Path, error: Exception) -> str:
+    if isinstance(error, FileNotFoundError):
+        return "no such file" + _near(path)
+    return (error.strerror if isinstance(error, OSError) else None) or "is no usable path"
+
+
+def _near(path: Path) -> str:
+    """Offer the file beside it whose name is nearest."""
+    try:
+        names = sorted(name for name in os.listdir(path.parent) if name.lower().endswith(_SUFFIXES))[:10_000]
+    except OSError:
+        return f': there is no folder "{path.parent}"'
+    near = get_close_matches(path.name, names, n=1, cutoff=0.6)
+    return f': did you mean "{path.parent / near[0]}"?' if near else ""
+
+
+def _offer(path: Path) -> str:
+    try:
+        names = sorted(name for name in os.listdir(path) if name.endswith(".toml"))
+    except OSError:
+        return ""
+    return f', such as "{path / names[0]}"' if names else ""
+
+
+def _fault(words: str, source: str) -> RecipeError:
+    return RecipeError([Fault(words, source=source)])

@@ -1,0 +1,77 @@
+"""Names that one part of a recipe uses for another: every one of them must exist.
+
+The same walk reads a recipe as a file's plain tables and as the dataclasses it becomes.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterator, Mapping
+from typing import Any, TypeAlias
+
+from batik_vector.errors import Fault, unknown_name
+
+Path: TypeAlias = tuple[str | int, ...]
+"""Keys and indices from the root of a recipe."""
+
+INK_KEYS = ("ink", "line_ink")
+_BARE = frozenset("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-")
+
+
+def dotted(path: Path) -> str:
+    """Return a path as people write it: ``("place", 1, "width")`` → ``place[1].width``."""
+    text = ""
+    for part in path:
+        if isinstance(part, int):
+            text += f"[{part}]"
+        else:
+            bare = part and _BARE.issuperset(part)
+            text += ("." if text else "") + (part if bare else f'"{part}"')
+    return text
+
+
+def children(node: Any) -> Iterator[tuple[str | int, Any]]:
+    """Yield what a table, a list or a dataclass holds."""
+    if isinstance(node, Mapping):
+        yield from node.items()
+    elif isinstance(node, list | tuple):
+        yield from enumerate(node)
+    elif dataclasses.is_dataclass(node) and not isinstance(node, type):
+        for field in dataclasses.fields(node):
+            yield field.name, getattr(node, field.name)
+
+
+def child(node: Any, key: str | int) -> Any:
+    """Return one thing that a node holds, or None."""
+    return next((value for name, value in children(node) if name == key), None)
+
+
+def ink_names(node: Any, path: Path = ()) -> Iterator[tuple[Path, str]]:
+    """Yield every ink that is named anywhere in a node, and where."""
+    for key, value in children(node):
+        if isinstance(value, str):
+            if key in INK_KEYS and value:
+                yield (*path, key), value
+        else:
+            yield from ink_names(value, (*path, key))
+
+
+def unknown_references(recipe: Any) -> list[tuple[Path, Fault]]:
+    """Return what names a motif or an ink that the recipe does not have."""
+    motifs, inks, places = child(recipe, "motif"), child(recipe, "ink"), child(recipe, "place")
+    found: list[tuple[Path, Fault]] = []
+
+    def look(path: Path, name: str, known: Any, what: str) -> None:
+        if isinstance(known, Mapping) and known and name not in known:
+            found.append((path, Fault(unknown_name(name, list(known), what), dotted(path))))
+
+    if inks is None:
+        inks = {"ink": None}
+    for path, name in ink_names(motifs, ("motif",)):
+        look(path, name, inks, "ink")
+    for number, place in children(places) if isinstance(places, list | tuple) else ():
+        for key, known in (("motif", motifs), ("ink", inks)):
+            name = child(place, key)
+            if isinstance(name, str) and (name or key == "motif"):
+                look(("place", number, key), name, known, key)
+    return found

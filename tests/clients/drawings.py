@@ -1,0 +1,48 @@
+"""The drawings that programs are shown: every sample, and two that are told from their mirror images."""
+
+from __future__ import annotations
+
+import functools
+from pathlib import Path
+
+import numpy as np
+import shapely
+
+from batik_vector.artwork import Artwork
+from batik_vector.compiler import compile_recipe
+from batik_vector.recipe import load_recipe
+
+HERE = Path(__file__).parent
+RECIPES = {
+    path.stem: path
+    for folder in (HERE / "recipes", HERE.parents[1] / "samples")
+    for path in sorted(folder.glob("*.toml"))
+}
+MOST_PIXELS = 2600
+
+
+@functools.cache
+def artwork(name: str) -> Artwork:
+    """Return a drawing."""
+    return compile_recipe(load_recipe(RECIPES[name]))
+
+
+def per_mm(drawing: Artwork) -> float:
+    """Return how many pixels to the millimetre make a picture of it that is fine, but not huge."""
+    longest = max(drawing.cell.width, drawing.cell.height)
+    return next((scale for scale in (4.0, 2.0, 1.0) if longest * scale <= MOST_PIXELS), 0.5)
+
+
+def outlines(drawing: Artwork, breadth: float) -> bytes:
+    """Return a drawing's rings and lines as an SVG of thin black lines, made without any of our writers."""
+    width, height = drawing.cell.width, drawing.cell.height
+    data = []
+    for layer in drawing.layers:
+        for line in np.concatenate([shapely.get_rings(layer.areas), layer.lines]):
+            data.append("M" + " ".join(f"{x},{height - y}" for x, y in shapely.get_coordinates(line)))
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}mm" height="{height}mm" '
+        f'viewBox="0 0 {width} {height}"><rect width="100%" height="100%" fill="white"/>'
+        f'<path fill="none" stroke="black" stroke-width="{breadth}" stroke-linecap="round" '
+        f'stroke-linejoin="round" d="{" ".join(data)}"/></svg>'
+    ).encode()

@@ -1,0 +1,136 @@
+"""The programs that people open the files in, called as a script would call them."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import pytest
+
+SECONDS = 180
+"""Each call takes about one; more than this is a program that hangs."""
+
+
+def run(names: str | Sequence[str], *arguments: str | Path, home: Path) -> str:
+    """Run a program with a home of its own and return what it wrote; it must succeed.
+
+    Args:
+        names: of the program; the first that is installed is taken.
+        arguments: of the call.
+        home: a folder the program may fill.
+    """
+    names = [names] if isinstance(names, str) else names
+    found = next(filter(None, map(shutil.which, names)), None)
+    if found is None:
+        missing = f"{names[0]} is not installed: make test-clients installs it"
+        if os.environ.get("BATIK_ALLOW_MISSING"):
+            pytest.skip(missing)
+        pytest.fail(missing)
+    room = home / "home"
+    room.mkdir(mode=0o700, exist_ok=True)
+    own = {"HOME", "XDG_RUNTIME_DIR", "XDG_CONFIG_HOME", "XDG_CACHE_HOME", "XDG_DATA_HOME"}
+    done = subprocess.run(
+        [found, *map(str, arguments)],
+        env={
+            "PATH": os.environ["PATH"],
+            "LC_ALL": "C.UTF-8",
+            "QT_QPA_PLATFORM": "offscreen",
+            **dict.fromkeys(own, str(room)),
+        },
+        cwd=home,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        timeout=SECONDS,
+        check=False,
+    )
+    words = done.stdout.decode(errors="replace")
+    assert done.returncode == 0, f"{names[0]} failed ({done.returncode}):\n{words[-2000:]}"
+    return words
+
+
+def dpi(per_mm: float) -> str:
+    """Return pixels to the millimetre as programs have it."""
+    return f"{per_mm * 25.4:g}"
+
+
+def inkscape(svg: Path, per_mm: float) -> Path:
+    """Return the page as Inkscape draws it."""
+    out = svg.with_name("inkscape.png")
+    run("inkscape", "--export-area-page", f"--export-dpi={dpi(per_mm)}", f"--export-filename={out}", svg,
+        home=svg.parent)  # fmt: skip
+    return out
+
+
+def inkscape_boxes(svg: Path) -> dict[str, tuple[float, float, float, float]]:
+    """Return left, top, width and height in mm of every object that Inkscape has found, by its id."""
+
+    def rows() -> Iterator[tuple[str, tuple[float, float, float, float]]]:
+        for line in run("inkscape", "--query-all", svg, home=svg.parent).splitlines():
+            name, *numbers = line.split(",")
+            if len(numbers) == 4:
+                # Inkscape answers in CSS pixels, 96 to the inch.
+                left, top, width, height = (float(number) * 25.4 / 96 for number in numbers)
+                yield name, (left, top, width, height)
+
+    return dict(rows())
+
+
+def chromium(svg: Path, width: int, height: int) -> Path:
+    """Return what a browser's window of so many CSS pixels (96 to the inch) shows of a file."""
+    out = svg.with_name("chromium.png")
+    run(
+        ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"],
+        "--headless",
+        "--no-sandbox",
+        "--disable-gpu",
+        "--disable-dev-shm-usage",
+        "--disable-background-networking",
+        "--disable-component-update",
+        "--disable-default-apps",
+        "--disable-extensions",
+        "--disable-sync",
+        "--no-first-run",
+        "--hide-scrollbars",
+        "--force-device-scale-factor=1",
+        f"--user-data-dir={svg.parent / 'profile'}",
+        f"--window-size={width},{height}",
+        f"--screenshot={out}",
+        svg.as_uri(),
+        home=svg.parent,
+    )
+    return out
+
+
+def poppler(pdf: Path, per_mm: float) -> Path:
+    """Return the page as poppler draws it."""
+    out = pdf.with_name("poppler")
+    run("pdftocairo", "-png", "-singlefile", "-r", dpi(per_mm), pdf, out, home=pdf.parent)
+    return out.with_suffix(".png")
+
+
+def mupdf(pdf: Path, per_mm: float) -> Path:
+    """Return the page as MuPDF draws it."""
+    out = pdf.with_name("mupdf.png")
+    run("mutool", "draw", "-q", "-r", dpi(per_mm), "-o", out, pdf, home=pdf.parent)
+    return out
+
+
+def librecad(dxf: Path) -> Path:
+    """Return the PDF that LibreCAD prints, black on white, on a page of the drawing's limits."""
+    folder = dxf.with_name("printed")
+    folder.mkdir()
+    run("librecad", "dxf2pdf", "--monochrome", "--directory", folder, dxf, home=dxf.parent)
+    return folder / dxf.with_suffix(".pdf").name
+
+
+def page_mm(pdf: Path, box: str = "MediaBox") -> tuple[float, float, float, float]:
+    """Return a box of the first page in mm, as poppler reads it."""
+    for line in run("pdfinfo", "-box", pdf, home=pdf.parent).splitlines():
+        if line.startswith(f"{box}:"):
+            left, low, right, high = (float(word) * 25.4 / 72 for word in line.split()[1:])
+            return left, low, right, high
+    raise AssertionError(f"pdfinfo names no {box}")

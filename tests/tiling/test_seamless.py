@@ -1,0 +1,141 @@
+"""Every tile is seamless, whatever the recipe: opposite edges are equal bits, and the torus has no origin."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import shapely
+from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+from batik_vector.artwork import Artwork, Cell, Layer, violations
+from batik_vector.compiler import compile_recipe
+from batik_vector.errors import RecipeError
+from batik_vector.model import Recipe
+from batik_vector.tiling.field import repeated
+from tests.recipes import recipes
+
+many = settings(
+    max_examples=1000,
+    deadline=None,
+    derandomize=True,
+    suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large],
+)
+
+
+def compiled(recipe: Recipe) -> Artwork:
+    try:
+        return compile_recipe(recipe)
+    except RecipeError as error:
+        # Everything may lie under a mark that only cuts.
+        assume("nothing is left" not in str(error))
+        raise
+
+
+def crossings(layer: Layer, axis: int, value: float, length: float) -> set[float]:
+    """Where the borders of areas meet a cell edge, by intersecting with the edge itself."""
+    ends = [(value, 0.0), (value, length)] if axis == 0 else [(0.0, value), (length, value)]
+    if not len(layer.areas):
+        return set()
+    near = layer.areas[shapely.STRtree(layer.areas).query(shapely.LineString(ends), predicate="intersects")]
+    covered = shapely.union_all(shapely.intersection(near, shapely.LineString(ends)))
+    stretches = [part for part in shapely.get_parts(shapely.line_merge(covered)) if part.length > 0]
+    found = [float(p[1 - axis]) for part in stretches for p in (part.coords[0], part.coords[-1])]
+    return {p for p in found if 0 < p < length}
+
+
+def twins(values: set[float], shift: float, length: float) -> set[float]:
+    moved = {round((value + shift) * 1000) % round(length * 1000) for value in values}
+    return {steps / 1000 for steps in moved} - {0.0}
+
+
+@many
+@given(recipes())
+def test_opposite_edges_are_bit_identical_and_the_artwork_is_in_normal_form(recipe: Recipe) -> None:
+    artwork = compiled(recipe)
+    assert violations(artwork) == []
+    cell = artwork.cell
+    (_, slip_y), (slip_x, _) = cell.lattice
+    for layer in artwork.layers:
+        left, right = (crossings(layer, 0, x, cell.height) for x in (0.0, cell.width))
+        assert twins(left, slip_y / 1000, cell.height) - {slip_y / 1000} == right - {slip_y / 1000}
+        low, high = (crossings(layer, 1, y, cell.width) for y in (0.0, cell.height))
+        assert twins(low, slip_x / 1000, cell.width) - {slip_x / 1000} == high - {slip_x / 1000}
+        assert_line_ends_meet(layer, cell)
+
+
+def assert_line_ends_meet(layer: Layer, cell: Cell) -> None:
+    """As many lines leave by an edge as come in by the opposite one, at the same places."""
+    (_, slip_y), (slip_x, _) = cell.lattice
+    size = round(cell.width * 1000), round(cell.height * 1000)
+    for axis, slip in ((0, slip_y), (1, slip_x)):
+        # A stretch along an edge is drawn on one side only, and so are its ends.
+        ends = [
+            line.coords[at]
+            for line in layer.lines
+            if not line.is_closed
+            for at, beside in ((0, 1), (-1, -2))
+            if line.coords[at][axis] != line.coords[beside][axis]
+        ]
+        here = [round(p[1 - axis] * 1000) for p in ends if p[axis] == 0]
+        there = [round(p[1 - axis] * 1000) for p in ends if round(p[axis] * 1000) == size[axis]]
+        inner = size[1 - axis]
+        edge = {0, inner, slip % inner}
+        assert sorted((y + slip) % inner for y in here if (y + slip) % inner not in edge) == sorted(
+            y % inner for y in there if y % inner not in edge
+        )
+
+
+def rolled(field: Artwork, cell: Cell, offset: tuple[float, float]) -> list[NDArray[np.object_]]:
+    """Cut a field at an offset (plain floats, no grid) and move the four pieces back into the cell."""
+    width, height = cell.width, cell.height
+    dx, dy = offset
+    window = shapely.box(dx, dy, dx + width, dy + height)
+    out = []
+    for layer in field.layers:
+        cut = shapely.intersection(layer.areas, window)
+        pieces = []
+        for i in (0, 1):
+            for j in (0, 1):
+                quarter = shapely.box(i * width, j * height, (i + 1) * width, (j + 1) * height)
+                part = shapely.intersection(cut, quarter)
+                part = shapely.transform(part, lambda xy, i=i, j=j: xy - [i * width, j * height])
+                pieces.append(part[~shapely.is_empty(part)])
+        out.append(np.concatenate(pieces))
+    return out
+
+
+def difference(a: NDArray[np.object_], b: NDArray[np.object_]) -> float:
+    """Area of the symmetric difference, summed over pairs so that no union rounds anything."""
+    i, j = shapely.STRtree(a).query(b, predicate="intersects") if len(a) and len(b) else ([], [])
+    common = float(shapely.area(shapely.intersection(a[j], b[i])).sum()) if len(i) else 0.0
+    return float(shapely.area(a).sum() + shapely.area(b).sum()) - 2 * common
+
+
+@settings(many, max_examples=150)
+@given(recipes(), st.floats(0.01, 0.99), st.floats(0.01, 0.99))
+def test_the_field_cut_elsewhere_is_the_tile(recipe: Recipe, u: float, v: float) -> None:
+    straight = replace(recipe, tile=replace(recipe.tile, cut="rectangle"))
+    inks = {name: replace(ink, overlap="weld") for name, ink in recipe.ink.items()}
+    artwork = compiled(replace(straight, ink=inks))
+    field = repeated(artwork, 2, 2)
+    assert violations(field) == []
+    again = rolled(field, artwork.cell, (u * artwork.cell.width, v * artwork.cell.height))
+    for layer, areas in zip(artwork.layers, again, strict=True):
+        assert abs(difference(layer.areas, areas)) < 1e-6
+
+
+@settings(many, max_examples=60)
+@given(recipes(), st.integers(1, 14_000), st.integers(1, 14_000))
+def test_moving_every_placement_moves_the_drawing_and_nothing_else(recipe: Recipe, dx: int, dy: int) -> None:
+    straight = replace(recipe, tile=replace(recipe.tile, cut="rectangle"))
+    moved = replace(
+        straight,
+        place=tuple(replace(p, at=(p.at[0] + dx / 1000, p.at[1] + dy / 1000)) for p in straight.place if p.at),
+    )
+    first, second = compiled(straight), compiled(moved)
+    for a, b in zip(first.layers, second.layers, strict=True):
+        perimeter = float(shapely.length(a.areas).sum())
+        assert abs(shapely.area(a.areas).sum() - shapely.area(b.areas).sum()) <= 0.002 * perimeter + 1e-6
