@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 from batik_vector.errors import Fault, RecipeError
 from batik_vector.model import Recipe
-from batik_vector.reading.faults import Found, found_in, keyed, shown, unknown_keys
+from batik_vector.reading.faults import Found, field_first, found_in, keyed, shown, unknown_keys
 from batik_vector.reading.files import MAX_TEXT, read_text
 from batik_vector.reading.hints import Hint
 from batik_vector.reading.lines import Lines
@@ -72,9 +72,15 @@ def read_recipe(text: str, source: str = "recipe", overrides: Sequence[str] = ()
 
 def located(error: RecipeError, source: str, text: str, overrides: Sequence[str] = ()) -> RecipeError:
     """Return an error of a later stage with file and line in the faults that have none yet."""
-    found = [
-        Found(keyed(fault.key), fault) if not fault.source else Found((), fault) for fault in error.faults
-    ]
+    lines = Lines(text)
+    found = []
+    for fault in error.faults:
+        path = keyed(fault.key) if not fault.source else ()
+        name, rest = field_first(fault.message)
+        if path and (*path, name) in lines:
+            path = (*path, name)
+            fault = Fault(rest, dotted(path))
+        found.append(Found(path, fault))
     return RecipeError(_placed(found, source, text, [parse_override(each) for each in overrides]))
 
 

@@ -155,7 +155,7 @@ class _SvgSurface:
     def _layer(self, label: str, name: str, fallback: str) -> None:
         from svgwrite.container import Group
 
-        self._group: Group = self._page.add(Group(debug=False))
+        self._group: Group = self._page.add(Group(factory=self._page))
         self._group.attribs.update(
             {"inkscape:groupmode": "layer", "inkscape:label": label, "id": self._ids.one(name, fallback)}
         )
@@ -164,7 +164,7 @@ class _SvgSurface:
         """Move what the layer holds into a group of its own, and open another beside it for the lines."""
         from svgwrite.container import Group
 
-        layer, filled, drawn = self._group, Group(debug=False), Group(debug=False)
+        layer, filled, drawn = self._group, Group(factory=self._page), Group(factory=self._page)
         filled.elements, layer.elements = layer.elements, [filled, drawn]
         for name, value in self._style.items():
             filled[name] = value
@@ -184,7 +184,7 @@ class _SvgSurface:
     def _path(self, data: str, name: str | None = None) -> None:
         from svgwrite.path import Path
 
-        path = Path(data, debug=False)
+        path = Path(data, factory=self._page)
         if name:
             path["id"] = name
         self._group.add(path)

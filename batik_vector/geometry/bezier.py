@@ -157,7 +157,7 @@ def fit_cubics(coords: Points, offsets: Indices, closed: Mask, tolerance: float)
     path, start, stop, smooth_ring = _stretches(lines, closed, breaks)
     # A stretch of one edge has no vertices to bend it.
     bent = stop - start > 1
-    runs = _runs(lines, path, start, stop, bent, smooth_ring)
+    runs = _runs(lines, path, start, stop, bent, smooth_ring, max(tolerance, SAMPLING))
     a, b, handles, failed = _fit_runs(runs, tolerance - flat)
     position = _ranges(start[bent], runs.edges + 1)
     begin, end = np.concatenate([start[~bent], position[a]]), np.concatenate([stop[~bent], position[b]])
@@ -227,7 +227,7 @@ def _bends(at: Complex, line: Indices, closed: Mask, flat: float) -> Mask:
         kept = np.flatnonzero(keep)
         lines = _lines(at[kept], line[kept], closed)
         i = np.searchsorted(kept, end)
-        i = i[closed[line[end]] & (np.bincount(line[kept])[line[end]] > 3)]
+        i = i[closed[line[end]] & (np.bincount(line[kept])[line[end]] > 2)]
         way, off = (
             at[kept[lines.after[i]]] - at[kept[lines.before[i]]],
             at[kept[i]] - at[kept[lines.before[i]]],
@@ -270,6 +270,7 @@ def _breaks(lines: _Lines, tolerance: float) -> Mask:
     expected = (left * length[before] + right * length) / 2
     noise = 0.02 + FLAT / np.maximum(np.minimum(length, length[before]), 1e-300)
     sudden = (turn > SUDDEN * expected + noise) & ~lonely & ~(regular & regular[before])
+    sudden &= turn * np.minimum(length, length[before]) > scale
     return np.asarray(hard | sudden)
 
 
@@ -323,7 +324,7 @@ def _stretches(lines: _Lines, closed: Mask, breaks: Mask) -> tuple[Indices, Indi
 
 
 def _runs(
-    lines: _Lines, path: Indices, start: Indices, stop: Indices, bent: Mask, smooth_ring: Mask
+    lines: _Lines, path: Indices, start: Indices, stop: Indices, bent: Mask, smooth_ring: Mask, scale: float
 ) -> _Runs:
     """Give the bent stretches their smooth interpretation."""
     edges = stop[bent] - start[bent]
@@ -338,10 +339,15 @@ def _runs(
     heading = _headings(at, bend, local, np.repeat(edges, size), np.repeat(smooth_ring[bent], size))
     single = np.zeros(len(lines.at), bool)
     single[path[start[~bent]]] = True
-    for end, edge, inner in (
-        (first, lines.before[vertex[first]], lines.heading[vertex[first]]),
-        (last, vertex[last], lines.heading[vertex[last - 1]]),
+    for end, chord_, next_, edge in (
+        (first, first, first + 1, lines.before[vertex[first]]),
+        (last, last - 1, last - 1, vertex[last]),
     ):
+        # Nothing beyond an end tells its direction: it is kept near to that of a parabola.
+        inner = lines.heading[vertex[chord_]]
+        bow = _wrap(inner - heading[next_])
+        reach = np.where(smooth_ring[bent], np.pi, np.abs(bow) + 2 * scale / np.abs(chord[chord_]))
+        heading[end] = inner + bow + np.clip(_wrap(heading[end] - inner - bow), -reach, reach)
         # A straight edge that the curve leaves or meets without a kink gives it its tangent.
         kink = np.abs(_wrap(heading[end] - lines.heading[edge]))
         smooth = single[edge] & (kink <= 0.35 * np.abs(_wrap(inner - lines.heading[edge])) + 0.01)
@@ -349,6 +355,10 @@ def _runs(
     angle = np.angle(chord)
     rise = 2 * np.tan(np.clip(_wrap(heading - angle), -1.4, 1.4) / 2)
     fall = 2 * np.tan(np.clip(_wrap(angle - np.roll(heading, -1)), -1.4, 1.4) / 2)
+    # Chords are not expected to stand off farther: what bends more bends beyond their ends.
+    height = np.abs(chord) * (np.abs(rise) + np.abs(fall)) / 8
+    tame = np.where(_regular(lines)[vertex], 1.0, np.minimum(1.5 * scale / np.maximum(height, scale), 1.0))
+    rise, fall = rise * tame, fall * tame
     rise[last] = fall[last] = 0
     arc = np.abs(chord) * (1 + (rise**2 + fall**2) / 12)
     travel = np.cumsum(arc) - arc
@@ -404,11 +414,10 @@ def _derivative(length: Array, angle: Array, place: Indices, valid: Mask) -> Arr
     use = valid & (np.arange(5) != place[:, None])
     result = np.zeros(len(way))
     for j in range(5):
-        with np.errstate(divide="ignore", invalid="ignore"):
-            factor = way / (way - way[:, j : j + 1])
-            slope = value[:, j] / way[:, j]
         other = use & (np.arange(5) != j)
-        result += np.where(use[:, j], slope * np.where(other, factor, 1.0).prod(axis=1), 0.0)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            factor = np.where(other, way / (way - way[:, j : j + 1]), 1.0).prod(axis=1)
+            result += np.where(use[:, j], value[:, j] / way[:, j] * factor, 0.0)
     # No wilder than a straight line through the directions of the two nearest chords allows.
     near = np.clip(place - 1, 0, np.minimum(valid.sum(axis=1) - 3, 2))
     middle = way[:, :4] + length / 2

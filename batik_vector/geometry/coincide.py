@@ -42,7 +42,7 @@ def distinct(
 
 def _earlier_neighbours(places: Array, reach: Array) -> list[list[int]]:
     """Return, for each place, the earlier ones within its reach."""
-    points = shapely.points(places)
+    points = _points(places)
     query, found = shapely.STRtree(points).query(points, predicate="dwithin", distance=reach)
     earlier = found < query
     near: list[list[int]] = [[] for _ in range(len(places))]
@@ -71,7 +71,7 @@ class _Symmetry:
     def holds(self, one: Array, other: Array) -> bool:
         """Whether two copies, given as rows of an affine map over the same place, draw the same."""
         first, second = one[:4].reshape(2, 2), other[:4].reshape(2, 2)
-        relative = np.linalg.solve(first, second)
+        relative: Array = np.asarray(np.linalg.solve(first, second), np.float64)
         if abs(abs(np.linalg.det(relative)) - 1) > 1e-6:
             return False
         key = tuple(np.round(relative.ravel() * 1e7).astype(int).tolist())
@@ -102,13 +102,13 @@ class _Symmetry:
         # Onto itself in one direction is onto itself in both for a map of finite order; a motif of an
         # arc and a longer arc upon it tells the two apart, so ask both ways.
         for matrix in (linear, np.linalg.inv(linear)):
-            moved = shapely.points(points @ matrix.T + self.centre)
+            moved = _points(points @ matrix.T + self.centre)
             hit = np.unique(tree.query(moved, predicate="dwithin", distance=reach)[0])
             if len(hit) < len(moved):
                 return False
             if _areal(self.parts[i]).any():
                 core = shapely.get_coordinates(inside) - self.centre
-                moved = shapely.points(core @ matrix.T + self.centre)
+                moved = _points(core @ matrix.T + self.centre)
                 areas = shapely.STRtree(self.parts[i])
                 hit = np.unique(areas.query(moved, predicate="dwithin", distance=reach)[0])
                 if len(hit) < len(moved):
@@ -122,6 +122,10 @@ class _Symmetry:
                 (shapely.STRtree(_edges(part)), shapely.point_on_surface(part)) for part in self.parts
             ]
         return self.trees[i]
+
+
+def _points(coordinates: Array) -> Geometries:
+    return np.asarray(shapely.points(coordinates), dtype=object)
 
 
 def _areal(geometries: Geometries) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
@@ -148,7 +152,7 @@ def drawn_once(geometries: Geometries, reach: float) -> Indices:
     count = len(geometries)
     bounds = shapely.bounds(geometries)
     corner, opposite = bounds[:, :2], bounds[:, 2:]
-    points = shapely.points(corner)
+    points = _points(corner)
     later, earlier = shapely.STRtree(points).query(points, predicate="dwithin", distance=2 * reach)
     alike = earlier < later
     alike &= (np.abs(opposite[later] - opposite[earlier]) <= reach * 2).all(axis=1)
@@ -165,7 +169,7 @@ def drawn_once(geometries: Geometries, reach: float) -> Indices:
 
 def _same(one: shapely.Geometry, other: shapely.Geometry, reach: float) -> bool:
     for a, b in ((one, other), (other, one)):
-        edges = a.boundary if a.geom_type == "Polygon" else a
+        edges = shapely.boundary(a) if shapely.get_dimensions(a) == 2 else a
         shapely.prepare(edges)
         if not shapely.dwithin(edges, shapely.points(shapely.get_coordinates(b)), reach).all():
             return False

@@ -12,6 +12,7 @@ from typing import Any
 from batik_vector.errors import Fault, RecipeError, unknown_name
 from batik_vector.fields import TAG
 from batik_vector.reading.hints import Hint, chosen, expected, members, span
+from batik_vector.reading.lines import parse_path
 from batik_vector.references import Path, dotted
 
 _BOUNDS = ("greater_than_equal", "less_than_equal")
@@ -166,40 +167,46 @@ def _raised(raised: Exception, spot: _Spot) -> list[Found]:
         words = words.removeprefix(f"{spot.path[-1]} {shown(spot.value)}: ") if spot.path else words
         glue = ", " if words.startswith("expected") else ": "
         return [_found(spot, f"{shown(spot.value)}{glue}{words}")]
-    # Dataclasses begin with the field at fault, as in "radius = 0: expected …" or 'repeat "x": expected …'.
-    begins = re.match(r"(\w+)(?: = | (?=\"))(?!\w+ = )", words)
-    if begins and begins[1] in members(cls):
-        path = (*spot.path, begins[1])
-        return [Found(path, Fault(words[begins.end() :], dotted(path)))]
+    name, rest = field_first(words)
+    if name in members(cls):
+        path = (*spot.path, name)
+        return [Found(path, Fault(rest, dotted(path)))]
     return [_found(spot, words)]
 
 
-def keyed(key: str, before: Path = ()) -> Path:
-    """Return the path of a key in words, behind another path."""
-    from batik_vector.reading.lines import parse_path
+def field_first(words: str) -> tuple[str, str]:
+    """Return the field that a message begins with, and the rest: ``radius = 0: expected …``."""
+    begins = re.match(r"(\w+)(?: = | (?=\"))(?!\w+ = )", words)
+    return (begins[1], words[begins.end() :]) if begins else ("", words)
 
-    return (*before, *parse_path(key)) if key else before
+
+def keyed(key: str, before: Path = ()) -> Path:
+    """Return the path of a key in words, behind another path; of a key that is none, the other path."""
+    try:
+        return (*before, *parse_path(key)) if key else before
+    except ValueError:
+        return before
 
 
 def unknown_keys(data: Any, hint: Hint, path: Path = ()) -> list[Found]:
     """Return every key that the classes of its table do not know, with the nearest that they do."""
     found: list[Found] = []
     if isinstance(data, list):
-        items = hint.items or [hint.item or Hint(object)] * len(data)
+        items = hint.items or [hint.item if hint.many else None] * len(data)
         for index, (each, item) in enumerate(zip(data, items, strict=False)):
-            found += unknown_keys(each, item, (*path, index))
-        return found
-    if not isinstance(data, dict):
+            found += unknown_keys(each, item or Hint(object), (*path, index))
         return found
     cls = chosen(hint, data)
-    known = dict(members(cls)) if cls else {}
+    if not isinstance(data, dict) or not (cls or hint.origin is dict):
+        return found
+    known = members(cls) if cls else {}
     tag = hint.one_of.tag if hint.one_of else None
     for key, value in data.items():
-        if cls and key != tag and key not in known:
-            found.append(_unknown_key(key, cls, tag, path))
-        elif cls or hint.item:
-            inner = known[key].hint if key in known else hint.item
-            found += unknown_keys(value, inner or Hint(object), (*path, key))
+        inner = known[key].hint if key in known else hint.item
+        if cls and key not in known:
+            found += [] if key == tag else [_unknown_key(key, cls, tag, path)]
+        elif inner:
+            found += unknown_keys(value, inner, (*path, key))
     return found
 
 

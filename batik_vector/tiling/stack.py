@@ -190,22 +190,37 @@ def _cutting_shape(sheet: Sheet, tolerance: float, extra: float) -> Geometries:
 
 def _welded(areas: Geometries) -> tuple[Geometries, NDArray[np.intp]]:
     """Join the areas that meet; return them with the index of the first area that each is made of."""
-    index = np.arange(len(areas))
+    origin = np.arange(len(areas))
+    meeting = np.unique(_meeting(areas))
+    # Joining moves crossings onto the grid, and may push an edge over a neighbour that it only came
+    # near to; then these two are joined as well.
+    while len(meeting):
+        areas, first = _joined(areas, meeting)
+        origin = origin[first]
+        pairs = _meeting(areas)
+        over = shapely.relate_pattern(areas[pairs[:, 0]], areas[pairs[:, 1]], "T********")
+        meeting = np.unique(pairs[over])
+    return areas, origin
+
+
+def _meeting(areas: Geometries) -> NDArray[np.intp]:
+    """Return the pairs of areas that have a point in common, shape (n, 2)."""
     if len(areas) < 2:
-        return areas, index
+        return np.empty((0, 2), np.intp)
     a, b = shapely.STRtree(areas).query(areas, predicate="intersects")
-    meeting = np.unique(a[a != b])
-    if not len(meeting):
-        return areas, index
-    union = np.array([shapely.union_all(areas[meeting], grid_size=1.0)], dtype=object)
-    joined, _ = polygons_of(union, np.zeros(1, np.intp))
-    point, host = shapely.STRtree(joined).query(shapely.point_on_surface(areas[meeting]), predicate="intersects")
-    first = np.full(len(joined), len(meeting), np.intp)
+    return np.asarray(np.column_stack([a, b])[a < b])
+
+
+def _joined(areas: Geometries, some: NDArray[np.intp]) -> tuple[Geometries, NDArray[np.intp]]:
+    """Return the areas with some of them united, and the index of the first area in each."""
+    union = np.array([shapely.union_all(areas[some], grid_size=1.0)], dtype=object)
+    united, _ = polygons_of(union, np.zeros(1, np.intp))
+    point, host = shapely.STRtree(united).query(shapely.point_on_surface(areas[some]), predicate="intersects")
+    first = np.full(len(united), len(some) - 1, np.intp)
     np.minimum.at(first, host, point)
-    first[first == len(meeting)] = 0
     alone = np.ones(len(areas), bool)
-    alone[meeting] = False
-    return np.concatenate([areas[alone], joined]), np.concatenate([index[alone], meeting[first]])
+    alone[some] = False
+    return np.concatenate([areas[alone], united]), np.concatenate([np.flatnonzero(alone), some[first]])
 
 
 def _cutters_of(marks: Geometries, cutters: Geometries) -> tuple[NDArray[np.intp], Geometries]:

@@ -92,6 +92,9 @@ def test_the_header_says_what_is_inside(version: DxfVersion, code: str) -> None:
         assert tuple(header[high])[:2] == (43, 33)
     if version is DxfVersion.R2000:
         assert (header["$INSUNITS"], header["$MEASUREMENT"]) == (4, 1)
+        # LibreCAD's scale on paper, and where the origin lies on it.
+        assert header["$PSVPSCALE"] == 1
+        assert tuple(header["$PINSBASE"])[:2] == (3, 3)
     assert (b"LWPOLYLINE" in data) == (version is DxfVersion.R2000)
     assert not re.search(rb"\n *999\n|SPLINE\n  5|\nHATCH\n|\nINSERT\n", data)
 

@@ -149,6 +149,18 @@ def test_curves_keep_the_shape_with_fewer_nodes(profile: Profile) -> None:
     assert square.closed
 
 
+def test_lines_and_curves_in_one_ring() -> None:
+    half = shapely.Point(20, 15).buffer(10, quad_segs=64).intersection(shapely.box(20, 0, 40, 30))
+    stem = shapely.union_all([half, shapely.box(12, 14, 20, 16)])
+    artwork = Artwork("c", Cell(40_000, 30_000), (Layer(Ink("w", "#000000"), areas=geometries(stem)),))
+    (ring,) = svg_rings(svg_layers(written(artwork, curves=Curves.BEZIER))["1 w"], filled=True)
+    straight = len(ring.points) - 1 - 20 * ring.curves
+    assert 2 <= ring.curves <= 12
+    # Five edges, of which closing may draw one.
+    assert 4 <= straight <= 5
+    assert -ring.area == pytest.approx(stem.area, rel=2e-3)
+
+
 def test_a_curve_ends_where_it_begins() -> None:
     marks = geometries(shapely.Point(20, 15).buffer(10, quad_segs=64))
     artwork = Artwork("c", Cell(40_000, 30_000), (Layer(Ink("w", "#000000"), areas=marks),))

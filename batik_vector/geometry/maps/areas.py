@@ -36,9 +36,13 @@ def area_images(flame: FlameMap, polygons: Geometries, tolerance: Tolerance) -> 
         images = folded_images(flame, inner, tolerance)
     else:
         images = regions(flame, inner, tolerance, thinning=not callable(tolerance))
-    found = shapely.orient_polygons(flame.post.apply(images.geometries))
-    order = np.lexsort((images.source, images.branch))
-    return Images(found[order], images.source[order], images.branch[order])
+    found, at = flame.post.apply(images.geometries), np.arange(len(images.geometries), dtype=np.intp)
+    if not flame.post.is_identity:
+        # Rings that touch may come to cross by the rounding of one more map.
+        found, at = _valid(found, at, injective=True)
+    source, branch = images.source[at], images.branch[at]
+    order = np.lexsort((source, branch))
+    return Images(shapely.orient_polygons(found)[order], source[order], branch[order])
 
 
 def regions(flame: FlameMap, polygons: Geometries, tolerance: Tolerance, thinning: bool) -> Images:

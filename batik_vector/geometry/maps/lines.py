@@ -9,7 +9,7 @@ import shapely
 
 from batik_vector.errors import TornRingError
 from batik_vector.geometry.maps.affine import Complexes, Geometries
-from batik_vector.geometry.maps.chains import Chains, prepare, unwrap
+from batik_vector.geometry.maps.chains import Angles, Chains, prepare, unwrap
 from batik_vector.geometry.maps.flame import NO_IMAGES, FlameMap, Images, Tolerance, core_tolerance
 from batik_vector.geometry.maps.settle import chains_of, points_of
 from batik_vector.geometry.maps.trace import trace_images
@@ -42,18 +42,7 @@ def line_images(flame: FlameMap, lines: Geometries, tolerance: Tolerance) -> Ima
                 "a closed line winds round the centre of julian (root), whose branches a sum with other "
                 "variations would tear: move it off the centre, or give julian a map of its own"
             )
-    found: list[tuple[Geometries, Indices, Indices]] = []
-    for branch in range(1 if single else flame.branches):
-        traced = trace_images(flame, chains, angles, branch, tolerance)
-        open_ = turns == 0
-        if open_.any():
-            part = Chains(*traced.thinned(), chains.owner).take(open_)
-            for turn in range(flame.branches if single else 1):
-                spin = flame.terms[0][1].spin(turn) if single else 1 + 0j
-                which = np.full(len(part), max(branch, turn), np.intp)
-                found.append((_linestrings(part.z * spin, part.offsets), part.owner, which))
-        for i in np.flatnonzero(~open_):
-            found.append(_wound(flame, traced.chain(int(i)), int(turns[i]), chains.owner[i]))
+    found = _traced(flame, chains, angles, turns, tolerance)
     geometries, source, branches = (np.concatenate(column) for column in zip(*found, strict=True))
     drawn = shapely.length(geometries) > 0
     geometries, source, branches = geometries[drawn], source[drawn], branches[drawn]
@@ -61,14 +50,32 @@ def line_images(flame: FlameMap, lines: Geometries, tolerance: Tolerance) -> Ima
     return Images(flame.post.apply(geometries[order]), source[order], branches[order])
 
 
+def _traced(
+    flame: FlameMap, chains: Chains, angles: Angles | None, turns: Indices, tolerance: Tolerance
+) -> list[Images]:
+    """Return the images under the core: those of lines that do not wind branch by branch, then the rest."""
+    single = len(flame.terms) == 1
+    found: list[Images] = []
+    for branch in range(1 if single else flame.branches):
+        traced = trace_images(flame, chains, angles, branch, tolerance)
+        flat = turns == 0
+        if flat.any():
+            part = Chains(*traced.thinned(), chains.owner).take(flat)
+            for turn in range(flame.branches if single else 1):
+                spin = flame.terms[0][1].spin(turn) if single else 1 + 0j
+                which = np.full(len(part), max(branch, turn), np.intp)
+                found.append(Images(_linestrings(part.z * spin, part.offsets), part.owner, which))
+        for i in np.flatnonzero(~flat):
+            found.append(_wound(flame, traced.chain(int(i)), int(turns[i]), chains.owner[i]))
+    return found
+
+
 def _linestrings(z: Complexes, offsets: Indices) -> Geometries:
     index = np.repeat(np.arange(len(offsets) - 1), np.diff(offsets))
     return np.asarray(shapely.linestrings(points_of(z), indices=index), dtype=object)
 
 
-def _wound(
-    flame: FlameMap, turn: Complexes, winding: int, owner: Indices
-) -> tuple[Geometries, Indices, Indices]:
+def _wound(flame: FlameMap, turn: Complexes, winding: int, owner: Indices) -> Images:
     """Return the images of a closed line that winds round the branch point.
 
     ``turn`` is the image of going round it once: it ends ``winding`` branches further on.
@@ -81,7 +88,7 @@ def _wound(
         spins = [variation.spin((first + winding * k) % sheets) for k in range(sheets // images)]
         z = np.concatenate([turn[:-1] * spin for spin in spins] + [turn[:1] * spins[0]])
         found[first] = shapely.LineString(points_of(z))
-    return found, np.full(images, owner, np.intp), np.arange(images, dtype=np.intp)
+    return Images(found, np.full(images, owner, np.intp), np.arange(images, dtype=np.intp))
 
 
 def _split_at_origin(chains: Chains) -> Chains:

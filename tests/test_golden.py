@@ -1,0 +1,56 @@
+"""The samples' pictures and their gallery show what the recipes say today."""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+
+import pytest
+from PIL import Image, ImageOps
+
+from tools import golden
+
+MEND = "make golden draws it again; look at it before you keep it"
+
+
+def picture(path: Path) -> bytes:
+    return path.with_suffix(".png").read_bytes()
+
+
+@pytest.mark.parametrize("path", golden.samples(), ids=lambda path: path.stem)
+def test_the_picture_is_up_to_date(path: Path) -> None:
+    assert not golden.stale(golden.sample(path)), MEND
+
+
+@pytest.mark.parametrize("path", golden.samples(), ids=lambda path: path.stem)
+def test_the_picture_is_small(path: Path) -> None:
+    data = picture(path)
+    assert len(data) <= golden.MOST_BYTES
+    assert Image.open(io.BytesIO(data)).width <= golden.WIDTH
+
+
+def test_the_gallery_is_up_to_date() -> None:
+    assert not golden.gallery_is_stale([golden.sample(path) for path in golden.samples()]), MEND
+
+
+def test_another_picture_is_told() -> None:
+    one = Image.new("RGB", (60, 40), "#1d2f5f")
+    one.paste("#f4efe2", (10, 10, 22, 22))
+    files = []
+    for each in (one, ImageOps.mirror(one), one.resize((61, 40))):
+        out = io.BytesIO()
+        each.save(out, "PNG")
+        files.append(out.getvalue())
+    assert golden.same(files[0], files[0])
+    assert not golden.same(files[0], files[1])
+    assert not golden.same(files[0], files[2])
+
+
+def test_the_comment_of_a_recipe_becomes_paragraphs() -> None:
+    text = "# One,\n# two.\n#\n# Three.\n\n# not this\ntitle = 'x'\n"
+    assert golden.leading_comment(text) == ["One, two.", "Three."]
+
+
+@pytest.mark.parametrize(("shape", "expected"), [(1.0, (3, 2)), (2.0, (2, 3)), (0.5, (3, 1)), (1.5, (2, 2))])
+def test_repeats_make_a_pleasant_shape(shape: float, expected: tuple[int, int]) -> None:
+    assert golden.repeats(shape) == expected
