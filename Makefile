@@ -21,10 +21,10 @@ demo: $(READY) ## compile samples/four-square.toml to SVG, PDF, DXF and PNG in o
 	$(BIN)/batik-vector compile samples/four-square.toml -o out -f svg,pdf,dxf,png
 
 test: $(READY) ## run the tests
-	$(PY) -m pytest $(WORKERS)
+	$(PY) -m pytest $(WORKERS) -rs
 
 test-clients: $(READY) $(CLIENTS_READY) ## open the files in Inkscape, LibreCAD, Chromium, poppler, mupdf, qpdf
-	$(PY) -m pytest $(WORKERS) -m clients tests/clients
+	$(PY) -m pytest $(WORKERS) -rs -m clients
 
 lint: $(READY) ## check style and types
 	$(BIN)/ruff check .

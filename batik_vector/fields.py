@@ -8,17 +8,18 @@ its hooks are methods that it looks for by name, so the geometry floor stays fre
 from __future__ import annotations
 
 import dataclasses
+import enum
 import functools
 import math
 import re
 import typing
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any, TypeAlias
+from typing import Annotated, Any, TypeAlias, TypeVar
 
 import annotated_types
 
-from batik_vector.errors import GeometryError
+from batik_vector.errors import GeometryError, unknown_name
 from batik_vector.units import parse_length
 
 
@@ -183,3 +184,18 @@ def check(value: Any) -> None:
             continue
         if not math.isfinite(number) or not bounds.low <= number <= bounds.high:
             raise GeometryError(f"{name} = {number}, expected {bounds.low:g} to {bounds.high:g}")
+
+
+Choice = TypeVar("Choice", bound=enum.StrEnum)
+
+
+def choice(kind: type[Choice], value: str, what: str) -> Choice:
+    """Return the member of an enumeration that a word names.
+
+    Raises:
+        GeometryError: with the nearest word that it has.
+    """
+    try:
+        return kind(value)
+    except ValueError:
+        raise GeometryError(unknown_name(str(value), list(kind), what)) from None

@@ -110,10 +110,11 @@ def _twice(path: Path, first: Job, job: Job, output: OutputSpec) -> Fault:
 
 
 def _check_folder(folder: Path) -> None:
-    if folder.exists() and not folder.is_dir():
-        raise ExportError(f"{folder} is a file, expected a folder")
-    if folder.is_dir() and not os.access(folder, os.W_OK | os.X_OK):
-        raise ExportError(f"{folder} may not be written to")
+    there = next(each for each in (folder, *folder.parents, Path()) if os.path.lexists(each))
+    if not there.is_dir():
+        raise ExportError(f"{there} is a file, expected a folder")
+    if not os.access(there, os.W_OK | os.X_OK):
+        raise ExportError(f"{there} may not be written to")
 
 
 def _check_place(path: Path, job: Job) -> None:

@@ -7,7 +7,7 @@ from typing import Annotated, TypeAlias
 
 from batik_vector.artwork import Overlap
 from batik_vector.errors import Fault, GeometryError, RecipeError
-from batik_vector.fields import Between, Colour, Hidden, Length, OneOf, Says, check, parse_colour
+from batik_vector.fields import Between, Colour, Hidden, Length, OneOf, Says, check, choice, parse_colour
 from batik_vector.motif import MOTIFS, Motif, Treatment
 from batik_vector.outputs import AnyOutput, OutputSpec
 from batik_vector.references import dotted, unknown_references
@@ -34,6 +34,7 @@ class InkSpec:
     def __post_init__(self) -> None:
         check(self)
         object.__setattr__(self, "colour", _colour(self.colour))
+        object.__setattr__(self, "overlap", choice(Overlap, self.overlap, "overlap"))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -135,7 +136,7 @@ class Recipe:
             if not placement.ink
             and placement.motif in self.motif
             and any(
-                not part.ink and part.treatment is not Treatment.CUT
+                not part.ink and part.treatment != Treatment.CUT
                 for part in self.motif[placement.motif].parts()
             )
         ]

@@ -16,7 +16,7 @@ import numpy as np
 import shapely
 
 from batik_vector.errors import GeometryError, unknown_name
-from batik_vector.fields import Between, Length, OneOf, Says, check
+from batik_vector.fields import Between, Length, OneOf, Says, check, choice
 from batik_vector.geometry.curves import CURVES, Circle, Curve, Hypocycloid, Petal, Rose, Superellipse, trace
 from batik_vector.geometry.maps.affine import Affine
 from batik_vector.geometry.regions import FillRule, Geometries, oriented, settle
@@ -57,6 +57,12 @@ class Dress:
     ] = None
     contours: Annotated[int, Between(1, 64), Says("nested contours, evenly spaced to the centre", "l")] = 1
 
+    def __post_init__(self) -> None:
+        check(self)
+        # Python may say "line" for Treatment.LINE, as recipes do.
+        object.__setattr__(self, "treatment", choice(Treatment, self.treatment, "treatment"))
+        object.__setattr__(self, "fill", choice(FillRule, self.fill, "fill rule"))
+
 
 @dataclass(frozen=True, kw_only=True)
 class Element(Dress):
@@ -74,9 +80,6 @@ class Element(Dress):
     arc: Annotated[float, Between(-360, 360), Says("degrees over which the copies are spread")] = 360.0
     spin: Annotated[float, Between(-360, 360), Says("degrees each copy is turned about itself")] = 0.0
     mirror: Annotated[bool, Says("also draw each copy's mirror image")] = False
-
-    def __post_init__(self) -> None:
-        check(self)
 
     def copies(self) -> list[Affine]:
         """Return where the curve is drawn."""
@@ -196,8 +199,6 @@ class Flower:
     order: Annotated[tuple[str, ...], Says("its elements, bottom first")] = FLOWER_ORDER
 
     def __post_init__(self) -> None:
-        for part in (self.leaf, self.petal, self.pistil, self.core):
-            check(part)
         for name in self.order:
             if name not in FLOWER_ORDER:
                 raise GeometryError(unknown_name(name, FLOWER_ORDER, "element of a flower"))

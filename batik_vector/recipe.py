@@ -11,24 +11,29 @@ import json
 import os
 import re
 import tomllib
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from batik_vector.errors import Fault, RecipeError
 from batik_vector.model import Recipe
-from batik_vector.reading.faults import Found, field_first, found_in, keyed, shown, unknown_keys
+from batik_vector.reading.faults import (
+    MAX_DEPTH,
+    Found,
+    field_first,
+    found_in,
+    keyed,
+    odd_numbers,
+    unknown_keys,
+)
 from batik_vector.reading.files import MAX_TEXT, read_text
 from batik_vector.reading.hints import Hint
 from batik_vector.reading.lines import Lines
 from batik_vector.reading.overrides import Override, overridden, parse_override
-from batik_vector.references import Path, children, dotted, unknown_references
+from batik_vector.references import Path, dotted, unknown_references
 
 if TYPE_CHECKING:
     from pydantic import TypeAdapter
-
-MAX_DEPTH = 64
-"""Tables within tables. The deepest recipe has about eight."""
 
 _DEEP_KEY = re.compile(
     r"(?<![\w-])(?:(?:[\w-]++|\"[^\"\n]*\"|'[^'\n]*')[ \t]*\.[ \t]*){%d}" % MAX_DEPTH  # noqa: UP031
@@ -97,7 +102,7 @@ def _tables(text: str, source: str) -> dict[str, Any]:
         raise fault(f"nested deeper than {MAX_DEPTH} tables", text.count("\n", 0, deep.start()) + 1)
     try:
         data = tomllib.loads(text)
-        odd = list(_odd_numbers(data, ()))
+        odd = list(odd_numbers(data))
     except tomllib.TOMLDecodeError as error:
         words, line = _syntax(str(error), text)
         raise fault(f"is no valid TOML: {words}", line) from error
@@ -129,16 +134,6 @@ def _syntax(words: str, text: str) -> tuple[str, int | None]:
         words = "an inline table { … } must stay on one line"
     column = f" (column {found[2]})" if found[2] else " (at the end of the file)"
     return words[:1].lower() + words[1:] + column, line
-
-
-def _odd_numbers(value: Any, path: Path) -> Iterator[Found]:
-    """Yield the whole numbers that TOML's 64 bits do not hold; refuse what is too deep."""
-    if len(path) > MAX_DEPTH:
-        raise RecursionError
-    if isinstance(value, int) and value.bit_length() > 64:
-        yield Found(path, Fault(f"{shown(value)}, expected a number of at most 64 bits", dotted(path)))
-    for key, inner in children(value):
-        yield from _odd_numbers(inner, (*path, key))
 
 
 @functools.cache

@@ -4,10 +4,21 @@ from __future__ import annotations
 
 from hypothesis import strategies as st
 
-from batik_vector.geometry.curves import Circle, Curve, Hypocycloid, Petal, Polygon, Rose, Spiral, Star, Superellipse
+from batik_vector.artwork import Overlap
+from batik_vector.geometry.curves import (
+    Circle,
+    Curve,
+    Hypocycloid,
+    Petal,
+    Polygon,
+    Rose,
+    Spiral,
+    Star,
+    Superellipse,
+)
 from batik_vector.model import InkSpec, Placement, Recipe
 from batik_vector.motif import Element, Rosette, Treatment
-from batik_vector.tiling.cells import TileSpec
+from batik_vector.tiling.cells import Cut, TileSpec
 from batik_vector.tiling.layouts import Free, Julian, Lattice, Layout, Mirror, Ring, Single, Spot
 
 small = st.floats(0.2, 1.5)
@@ -38,7 +49,9 @@ elements = st.builds(
 
 layouts: st.SearchStrategy[Layout] = st.one_of(
     st.builds(Single, turn=st.floats(-180, 180)),
-    st.builds(Julian, power=st.integers(2, 5), dist=st.sampled_from([2.0, 3.0, 4.0, 5.0]), turn=st.floats(0, 90)),
+    st.builds(
+        Julian, power=st.integers(2, 5), dist=st.sampled_from([2.0, 3.0, 4.0, 5.0]), turn=st.floats(0, 90)
+    ),
     st.builds(Ring, count=st.integers(2, 6), upright=st.booleans()),
     st.builds(Mirror, axis=st.floats(0, 180)),
     st.builds(Lattice, columns=st.integers(1, 3), rows=st.just(2), stagger=st.booleans()),
@@ -67,14 +80,14 @@ tiles = st.builds(
     TileSpec,
     size=st.tuples(side, side),
     repeat=st.sampled_from(["grid", "half-drop", "brick", "drop 1/3", "drop 2/5", "brick 1/4"]),
-    cut=st.sampled_from(["rectangle", "unit"]),
+    cut=st.sampled_from(list(Cut)),
 )
 
 
 @st.composite
 def recipes(draw: st.DrawFn) -> Recipe:
     """Draw a recipe of one motif in two inks, placed once or twice, that always compiles."""
-    overlap = st.sampled_from(["weld", "knockout", "overlay"])
+    overlap = st.sampled_from(list(Overlap))
     return Recipe(
         motif={"m": Rosette(elements=tuple(draw(st.lists(elements, min_size=1, max_size=3))))},
         place=tuple(draw(st.lists(placements, min_size=1, max_size=2))),

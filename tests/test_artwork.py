@@ -42,11 +42,16 @@ def test_a_sound_artwork_has_no_violations() -> None:
         (raw(shapely.Polygon([(1, 1), (np.inf, 1), (4, 4)])), "not finite"),
         (raw(shapely.Polygon()), "empty"),
         (raw(shapely.Point(1, 1)), "no polygon"),
-        (raw(shapely.Polygon([(1, 1), (4, 1), (4, 4)], [[(2, 1.5), (3, 1.5), (3, 2)]])), "hole runs anticlockwise"),
+        (
+            raw(shapely.Polygon([(1, 1), (4, 1), (4, 4)], [[(2, 1.5), (3, 1.5), (3, 2)]])),
+            "hole runs anticlockwise",
+        ),
         (artwork(SQUARE, shapely.box(3, 3, 5, 5)), "1 pairs of areas overlap"),
         (artwork(lines=(shapely.LineString([(1, 1), (1, 1), (2, 2)]),)), "length zero"),
         (
-            artwork(lines=(shapely.LineString([(1, 1), (2, 2)]), shapely.LineString([(3, 3), (2, 2), (1, 1)]))),
+            artwork(
+                lines=(shapely.LineString([(1, 1), (2, 2)]), shapely.LineString([(3, 3), (2, 2), (1, 1)]))
+            ),
             "drawn twice",
         ),
         (replace(artwork(SQUARE), layers=artwork(SQUARE).layers * 2), 'two layers named "wax"'),
@@ -57,10 +62,14 @@ def test_every_broken_rule_is_found(broken: Artwork, words: str) -> None:
 
 
 def test_an_overlay_may_overlap_and_a_bleed_may_reach_out() -> None:
-    assert violations(artwork(SQUARE, shapely.box(3, 3, 5, 5), ink=replace(INK, overlap=Overlap.OVERLAY))) == []
+    assert (
+        violations(artwork(SQUARE, shapely.box(3, 3, 5, 5), ink=replace(INK, overlap=Overlap.OVERLAY))) == []
+    )
     assert violations(replace(raw(shapely.box(-2, 1, 4, 4)), bleed=3.0)) == []
 
 
 def test_a_gap_at_the_seam_is_told_with_its_place() -> None:
-    half = Artwork("gap", Cell(10_000, 10_000), (Layer(INK, np.array([shapely.box(0, 2, 3, 5)], dtype=object)),))
+    half = Artwork(
+        "gap", Cell(10_000, 10_000), (Layer(INK, np.array([shapely.box(0, 2, 3, 5)], dtype=object)),)
+    )
     assert inspect(half)["seam"] == [{"ink": "wax", "edges": "left and right", "from_mm": 2.0, "to_mm": 5.0}]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import datetime
 import math
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -13,9 +13,11 @@ from batik_vector.errors import Fault, RecipeError, unknown_name
 from batik_vector.fields import TAG
 from batik_vector.reading.hints import Hint, chosen, expected, members, span
 from batik_vector.reading.lines import parse_path
-from batik_vector.references import Path, dotted
+from batik_vector.references import Path, children, dotted
 
 _BOUNDS = ("greater_than_equal", "less_than_equal")
+MAX_DEPTH = 64
+"""Tables within tables. The deepest recipe has about eight."""
 _LONGEST = 60
 _MISSING = object()
 
@@ -217,3 +219,17 @@ def _unknown_key(key: str, cls: type, tag: str | None, path: Path) -> Found:
         return Found(here, Fault(later[key], dotted(here)))
     names = [*([tag] if tag else []), *members(cls)]
     return Found(here, Fault(unknown_name(key[:_LONGEST], names, "key"), dotted(path)))
+
+
+def odd_numbers(value: Any, path: Path = ()) -> Iterator[Found]:
+    """Yield the whole numbers that TOML's 64 bits do not hold.
+
+    Raises:
+        RecursionError: where tables lie too deep in one another.
+    """
+    if len(path) > MAX_DEPTH:
+        raise RecursionError
+    if isinstance(value, int) and value.bit_length() > 64:
+        yield Found(path, Fault(f"{shown(value)}, expected a number of at most 64 bits", dotted(path)))
+    for key, inner in children(value):
+        yield from odd_numbers(inner, (*path, key))

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from batik_vector.errors import Fault, RecipeError, unknown_name
-from batik_vector.reading.faults import shown
+from batik_vector.reading.faults import MAX_DEPTH, odd_numbers, shown
 from batik_vector.reading.lines import parse_path
 from batik_vector.references import Path, dotted
 
@@ -28,7 +28,12 @@ class Override:
     @property
     def source(self) -> str:
         """Where a fault of it is said to stand."""
-        return f"--set {self.text}"
+        return f"--set {_short(self.text)}"
+
+
+def _short(text: str) -> str:
+    line = "".join(each if each.isprintable() else "\ufffd" for each in text[:80])
+    return line if len(text) <= 80 else f"{line}…"
 
 
 def parse_override(text: str) -> Override:
@@ -42,9 +47,15 @@ def parse_override(text: str) -> Override:
         if not equals or not value.strip():
             raise ValueError("expected KEY=VALUE, such as motif.flower.petal.count=12")
         path = parse_path(key.strip())
+        change = Override(path, _parsed(value.strip()), text)
+        for odd in odd_numbers(change.value, path):
+            raise ValueError(odd.fault.message)
     except ValueError as error:
-        raise RecipeError([Fault(str(error), source=f"--set {text}")]) from None
-    return Override(path, _parsed(value.strip()), text)
+        raise RecipeError([Fault(str(error), source=f"--set {_short(text)}")]) from None
+    except RecursionError:
+        words = f"nested deeper than {MAX_DEPTH} tables"
+        raise RecipeError([Fault(words, source=f"--set {_short(text)}")]) from None
+    return change
 
 
 def _parsed(value: str) -> Any:
@@ -128,6 +139,8 @@ def _index(node: list[Any], path: Path) -> int:
     part = path[-1]
     index = part if isinstance(part, int) else int(part) if part.isdecimal() else -1
     if not 0 <= index < len(node):
-        numbers = f"expected a number from 0 to {len(node) - 1}" if node else "the list is empty"
+        numbers = (
+            f"expected 0 to {len(node) - 1}" if len(node) > 1 else "expected 0" if node else "it is empty"
+        )
         raise _Astray(path, f"no such place in the list: {numbers}")
     return index

@@ -10,7 +10,7 @@ from typing import Annotated
 
 from batik_vector.artwork import Cell, DropAxis
 from batik_vector.errors import GeometryError
-from batik_vector.fields import Between, Length, Says, Text
+from batik_vector.fields import Between, Length, Says, Text, choice
 from batik_vector.units import to_steps
 
 _DROP = re.compile(r"^(drop|brick)\s+(\d{1,3})\s*/\s*(\d{1,3})$")
@@ -54,6 +54,7 @@ class TileSpec:
 
     def __post_init__(self) -> None:
         parse_repeat(self.repeat)
+        object.__setattr__(self, "cut", choice(Cut, self.cut, "cut"))
 
     def unit(self) -> Cell:
         """Return the unit on the grid.

@@ -252,7 +252,9 @@ def _runs(coords: Steps, offsets: Steps, window: Window) -> tuple[Geometries, ND
         dtype=object,
     )
     # A ring that begins inside the window falls into one stretch too many: its last goes on in its first.
-    opens = np.flatnonzero((first == offsets[owner]) & (coords[first] == coords[offsets[owner + 1] - 1]).all(axis=1))
+    opens = np.flatnonzero(
+        (first == offsets[owner]) & (coords[first] == coords[offsets[owner + 1] - 1]).all(axis=1)
+    )
     closes = np.searchsorted(owner, owner[opens], side="right") - 1
     whole = (last[closes] == offsets[owner[opens] + 1] - 1) & (opens != closes)
     opens, closes = opens[whole], closes[whole]

@@ -27,7 +27,9 @@ def test_repeats(text: str, drop: Fraction, axis: DropAxis) -> None:
     assert parse_repeat(text) == (drop, axis)
 
 
-@pytest.mark.parametrize("text", ["half drop", "drop", "drop 1/0", "drop 1/61", "drop 0.5", "p4m", "", "drop -1/2"])
+@pytest.mark.parametrize(
+    "text", ["half drop", "drop", "drop 1/0", "drop 1/61", "drop 0.5", "p4m", "", "drop -1/2"]
+)
 def test_what_is_no_repeat_is_refused_with_what_is(text: str) -> None:
     with pytest.raises(GeometryError, match=r"expected .*p/q"):
         parse_repeat(text)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import shapely
@@ -10,10 +11,11 @@ from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from batik_vector.artwork import Artwork, Cell, Layer, violations
+from batik_vector.artwork import Artwork, Cell, Layer, Overlap, violations
 from batik_vector.compiler import compile_recipe
 from batik_vector.errors import RecipeError
 from batik_vector.model import Recipe
+from batik_vector.tiling.cells import Cut
 from batik_vector.tiling.field import repeated
 from tests.recipes import recipes
 
@@ -110,7 +112,7 @@ def rolled(field: Artwork, cell: Cell, offset: tuple[float, float]) -> list[NDAr
             for j in (0, 1):
                 quarter = shapely.box(i * width, j * height, (i + 1) * width, (j + 1) * height)
                 part = shapely.intersection(cut, quarter)
-                part = shapely.transform(part, lambda xy, i=i, j=j: xy - [i * width, j * height])
+                part = shapely.transform(part, partial(np.add, [-i * width, -j * height]))
                 pieces.append(part[~shapely.is_empty(part)])
         out.append(np.concatenate(pieces))
     return out
@@ -126,8 +128,8 @@ def difference(a: NDArray[np.object_], b: NDArray[np.object_]) -> float:
 @settings(many, max_examples=150)
 @given(recipes(), st.floats(0.01, 0.99), st.floats(0.01, 0.99))
 def test_the_field_cut_elsewhere_is_the_tile(recipe: Recipe, u: float, v: float) -> None:
-    straight = replace(recipe, tile=replace(recipe.tile, cut="rectangle"))
-    inks = {name: replace(ink, overlap="weld") for name, ink in recipe.ink.items()}
+    straight = replace(recipe, tile=replace(recipe.tile, cut=Cut.RECTANGLE))
+    inks = {name: replace(ink, overlap=Overlap.WELD) for name, ink in recipe.ink.items()}
     artwork = compiled(replace(straight, ink=inks))
     field = repeated(artwork, 2, 2)
     assert violations(field) == []
@@ -139,10 +141,12 @@ def test_the_field_cut_elsewhere_is_the_tile(recipe: Recipe, u: float, v: float)
 @settings(many, max_examples=60)
 @given(recipes(), st.integers(1, 14_000), st.integers(1, 14_000))
 def test_moving_every_placement_moves_the_drawing_and_nothing_else(recipe: Recipe, dx: int, dy: int) -> None:
-    straight = replace(recipe, tile=replace(recipe.tile, cut="rectangle"))
+    straight = replace(recipe, tile=replace(recipe.tile, cut=Cut.RECTANGLE))
     moved = replace(
         straight,
-        place=tuple(replace(p, at=(p.at[0] + dx / 1000, p.at[1] + dy / 1000)) for p in straight.place if p.at),
+        place=tuple(
+            replace(p, at=(p.at[0] + dx / 1000, p.at[1] + dy / 1000)) for p in straight.place if p.at
+        ),
     )
     first, second = compiled(straight), compiled(moved)
     for a, b in zip(first.layers, second.layers, strict=True):

@@ -35,7 +35,10 @@ EXAMPLES: list[Curve] = [
     *(Rose(n, d) for n, d in [(1, 1), (2, 1), (3, 1), (4, 1), (8, 1), (7, 3), (2, 3), (1, 3), (5, 4)]),
     Petal(),
     Petal(9),
-    *(Hypocycloid(m, n) for m, n in [(16, 5), (8, 5), (24, 5), (32, 5), (10, 4), (15, 6), (3, 1), (20, 5), (7, 2)]),
+    *(
+        Hypocycloid(m, n)
+        for m, n in [(16, 5), (8, 5), (24, 5), (32, 5), (10, 4), (15, 6), (3, 1), (20, 5), (7, 2)]
+    ),
     Circle(0.1),
     Circle(1.0),
     Polygon(7),
@@ -53,12 +56,16 @@ EXAMPLES: list[Curve] = [
 def dense(curve: Curve) -> np.ndarray:
     """The curve at even parameters with the breaks among them, and closer and closer towards each break."""
     knots = np.concatenate([[0.0], curve.breaks(), [1.0]])
-    inner = np.concatenate([np.geomspace(1e-14, 0.02, 400), np.linspace(0.02, 0.98, 1500), 1 - np.geomspace(1e-14, 0.02, 400)])
-    t = np.unique(np.concatenate([knots, (knots[:-1, None] + np.diff(knots)[:, None] * np.sort(inner)).ravel()]))
+    inner = np.concatenate(
+        [np.geomspace(1e-14, 0.02, 400), np.linspace(0.02, 0.98, 1500), 1 - np.geomspace(1e-14, 0.02, 400)]
+    )
+    t = np.unique(
+        np.concatenate([knots, (knots[:-1, None] + np.diff(knots)[:, None] * np.sort(inner)).ravel()])
+    )
     points = curve.at(t)
     # Steps that only rounding makes are no steps.
     apart = np.hypot(*np.diff(points, axis=0).T) > 1e-12
-    return points[np.concatenate([[True], apart])]
+    return np.asarray(points[np.concatenate([[True], apart])])
 
 
 def scale_of(points: np.ndarray) -> float:

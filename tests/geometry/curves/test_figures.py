@@ -11,7 +11,9 @@ from batik_vector.errors import GeometryError
 from batik_vector.geometry.curves import Circle, Hypocycloid, Petal, Polygon, Rose, Superellipse, trace
 
 
-@pytest.mark.parametrize(("n", "d", "petals"), [(2, 1, 4), (3, 1, 3), (4, 1, 8), (5, 1, 5), (7, 3, 7), (5, 4, 10), (4, 2, 4)])
+@pytest.mark.parametrize(
+    ("n", "d", "petals"), [(2, 1, 4), (3, 1, 3), (4, 1, 8), (5, 1, 5), (7, 3, 7), (5, 4, 10), (4, 2, 4)]
+)
 def test_a_rose_has_n_petals_when_nd_is_odd_and_2n_when_even(n: int, d: int, petals: int) -> None:
     rose = Rose(n, d)
     assert rose.petals == petals
@@ -39,7 +41,9 @@ def test_the_tips_of_a_leaf_are_exact() -> None:
     assert tips.tolist() == [[1.2, 0], [0, 0.3], [-1.2, 0], [0, -0.3], [1.2, 0]]
 
 
-@pytest.mark.parametrize(("m", "n", "copies"), [(16, 5, 1), (10, 4, 2), (20, 5, 5), (15, 6, 3), (24, 6, 6), (32, 5, 1)])
+@pytest.mark.parametrize(
+    ("m", "n", "copies"), [(16, 5, 1), (10, 4, 2), (20, 5, 5), (15, 6, 3), (24, 6, 6), (32, 5, 1)]
+)
 def test_a_pistil_shows_all_its_cusps_once(m: int, n: int, copies: int) -> None:
     star = Hypocycloid(m, n, 1.0)
     traced = trace(star, 1e-3)
@@ -76,7 +80,7 @@ def test_pistils_that_are_none_are_refused_with_good_neighbours(m: int, n: int, 
     ],
 )
 def test_numbers_out_of_bounds_are_refused_with_the_bounds(build: object) -> None:
-    with pytest.raises(GeometryError, match="expected .* to "):
+    with pytest.raises(GeometryError, match=r"expected .* to "):
         build()  # type: ignore[operator]
 
 

@@ -1,0 +1,81 @@
+"""Every sample compiles to a sound, seamless tile in every format, and has its picture beside it."""
+
+from __future__ import annotations
+
+import functools
+from pathlib import Path
+
+import pytest
+
+from batik_vector import compile_recipe, load_recipe
+from batik_vector.artwork import Artwork, violations
+from batik_vector.compiler import inspect
+from batik_vector.export import FORMATS, render
+from batik_vector.export.options import PngOptions
+from batik_vector.tiling.field import repeated
+from tests.tiling.test_seamless import assert_line_ends_meet, crossings, cuts, difference, rolled, twins
+
+FOLDER = Path(__file__).resolve().parent.parent / "samples"
+SAMPLES = sorted(path.stem for path in FOLDER.glob("*.toml"))
+
+PAPER = {
+    "four-square",
+    *(f"figure-{number:02}" for number in (5, 6, 7, 8, 9)),
+    *(f"figure-14{letter}" for letter in "abcd"),
+}
+
+
+@functools.cache
+def compiled(name: str) -> Artwork:
+    return compile_recipe(load_recipe(FOLDER / f"{name}.toml"))
+
+
+def test_the_papers_figures_and_six_designs_more_are_there() -> None:
+    assert set(SAMPLES) >= PAPER
+    assert len(set(SAMPLES) - PAPER) >= 6
+
+
+@pytest.mark.parametrize("name", SAMPLES)
+def test_the_tile_is_sound_and_its_opposite_edges_are_bit_identical(name: str) -> None:
+    artwork = compiled(name)
+    assert violations(artwork) == []
+    assert inspect(artwork)["seam"] == []
+    recipe = load_recipe(FOLDER / f"{name}.toml")
+    cell = artwork.cell
+    (_, slip_y), (slip_x, _) = cell.lattice
+    for layer in artwork.layers:
+        left, right = (crossings(layer, 0, x, cell.height) for x in (0.0, cell.width))
+        assert twins(left, slip_y / 1000, cell.height) == right
+        low, high = (crossings(layer, 1, y, cell.width) for y in (0.0, cell.height))
+        assert twins(low, slip_x / 1000, cell.width) == high
+        if not cuts(recipe):
+            assert_line_ends_meet(layer, cell)
+
+
+@pytest.mark.parametrize("name", SAMPLES)
+def test_the_field_cut_elsewhere_is_the_tile(name: str) -> None:
+    artwork = compiled(name)
+    field = repeated(artwork, 2, 2)
+    assert violations(field) == []
+    again = rolled(field, artwork.cell, (0.3719 * artwork.cell.width, 0.6173 * artwork.cell.height))
+    for layer, areas in zip(artwork.layers, again, strict=True):
+        assert abs(difference(layer.areas, areas)) < 1e-6
+
+
+@pytest.mark.parametrize("name", SAMPLES)
+def test_every_format_is_written(name: str) -> None:
+    artwork = compiled(name)
+    for format_ in FORMATS:
+        options = PngOptions(dpi=15) if format_ == "png" else None
+        assert len(render(artwork, format_, options)) > 1000
+
+
+@pytest.mark.parametrize("name", SAMPLES)
+def test_the_sample_has_its_picture_and_stands_in_the_gallery(name: str) -> None:
+    assert (FOLDER / f"{name}.png").stat().st_size > 2000
+    assert f"({name}.png)" in (FOLDER / "README.md").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("name", SAMPLES)
+def test_the_recipe_opens_with_what_it_shows(name: str) -> None:
+    assert (FOLDER / f"{name}.toml").read_text(encoding="utf-8").startswith("# ")

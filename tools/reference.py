@@ -1,0 +1,216 @@
+"""Write docs/recipe.md from the program itself: every key, its bounds, its default and its help.
+
+Bounds and help are said once, beside the attribute they belong to; this page is read off them.
+``python tools/reference.py`` writes it, ``--check`` tells whether it is stale.
+"""
+
+from __future__ import annotations
+
+import argparse
+import ast
+import dataclasses
+import enum
+import inspect
+import itertools
+import json
+import sys
+import types
+import typing
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Annotated, Any
+
+from batik_vector.artwork import Overlap
+from batik_vector.fields import Between, Hidden, LengthUnit, OneOf, Says
+from batik_vector.geometry.curves import CURVES
+from batik_vector.geometry.maps import VARIATIONS
+from batik_vector.geometry.regions import FillRule
+from batik_vector.model import ClothSpec, InkSpec, Placement, Recipe
+from batik_vector.motif import Core, Dress, Element, Flower, Leaf, Petals, Pistil, Rosette, Treatment
+from batik_vector.outputs import OUTPUTS
+from batik_vector.tiling.cells import Cut, TileSpec
+from batik_vector.tiling.layouts import LAYOUTS, MapSpec, Spot, Term
+from batik_vector.units import MM_PER_UNIT, format_mm
+
+PAGE = Path(__file__).resolve().parent.parent / "docs" / "recipe.md"
+
+HEAD = """# The recipe
+
+A recipe is a [TOML](https://toml.io) file. Lengths on cloth carry a unit ({units});
+a bare number is millimetres. Motifs are measured in units of their own, in which the paper's petal is
+1 long. Angles are degrees, anticlockwise. `batik-vector schema` prints all this for editors;
+`batik-vector new` writes a recipe to begin with. This page is made from the program by `make docs`.
+"""
+
+
+def marks_of(hint: Any) -> tuple[Any, list[Any]]:
+    """Return a type without its annotations, and all of these, however deep they stand."""
+    found: list[Any] = []
+    while typing.get_origin(hint) in (Annotated, types.UnionType, typing.Union):
+        if typing.get_origin(hint) is not Annotated:
+            inner = [arg for arg in typing.get_args(hint) if arg is not type(None)]
+            if len(inner) != 1:
+                break
+            hint = inner[0]
+            continue
+        found += hint.__metadata__
+        hint = hint.__origin__
+    return hint, found
+
+
+def expected(hint: Any) -> str:
+    """Say in a few words what a key takes."""
+    base, marks = marks_of(hint)
+    bounds = next((mark for mark in marks if isinstance(mark, Between)), None)
+    catalogue = next((mark for mark in marks if isinstance(mark, OneOf)), None)
+    if catalogue is not None:
+        return f"a {catalogue.what}"
+    if isinstance(base, type) and issubclass(base, enum.Enum):
+        return ", ".join(f"`{member.value}`" for member in base)
+    length = any(isinstance(mark, LengthUnit) for mark in marks)
+    if bounds is not None:
+        low, high = (f"{n:g}" if n < 1e5 else f"{n:,.0f}" for n in (bounds.low, bounds.high))
+        span = f"{low} to {high}"
+        return f"length, {span} mm" if length else span
+    if length:
+        return "length"
+    if typing.get_origin(base) is tuple:
+        inner = typing.get_args(base)
+        if len(inner) == 2 and inner[1] is Ellipsis:
+            return f"list of {plural(inner[0])}"
+        return "[" + ", ".join(expected(each) for each in inner) + "]"
+    if typing.get_origin(base) is dict:
+        return "tables by name"
+    names = {bool: "`true` or `false`", str: "text", int: "whole number", float: "number"}
+    if typing.get_origin(base) is typing.Literal:
+        return ", ".join(f"`{word}`" for word in typing.get_args(base))
+    return names.get(base, "table")
+
+
+def plural(hint: Any) -> str:
+    """Say what a list holds."""
+    base, _ = marks_of(hint)
+    return "texts" if base is str else "tables" if dataclasses.is_dataclass(base) else expected(hint)
+
+
+def default_of(field: dataclasses.Field[Any]) -> str:
+    """Say what a key is when it is left out."""
+    if field.default is dataclasses.MISSING:
+        return "" if field.default_factory is not dataclasses.MISSING else "*needed*"
+    value = field.default
+    if value is None or value in ("", ()):
+        return ""
+    if isinstance(value, enum.Enum):
+        return f"`{value.value}`"
+    if isinstance(value, bool):
+        return f"`{str(value).lower()}`"
+    if isinstance(value, float):
+        return f"`{format_mm(value)}`"
+    if isinstance(value, tuple):
+        return "" if any(map(dataclasses.is_dataclass, value)) else f"`{json.dumps(value)}`"
+    return f"`{value}`"
+
+
+def table(cls: type, skip: frozenset[str] = frozenset()) -> Iterator[str]:
+    """Yield the rows of a dataclass's keys."""
+    hints = typing.get_type_hints(cls, include_extras=True)
+    rows = []
+    for field in dataclasses.fields(cls):
+        _, marks = marks_of(hints[field.name])
+        if field.name in skip or any(isinstance(mark, Hidden) for mark in marks):
+            continue
+        says = next((mark for mark in marks if isinstance(mark, Says)), Says(""))
+        symbol = f" (the paper's *{says.symbol}*)" if says.symbol else ""
+        takes = expected(hints[field.name])
+        rows.append(f"| `{field.name}` | {takes} | {default_of(field)} | {says.text}{symbol} |")
+    if rows:
+        yield "| key | takes | default | |"
+        yield "| --- | --- | --- | --- |"
+        yield from rows
+    else:
+        yield "No keys of its own."
+    yield ""
+
+
+def story(cls: type) -> str:
+    """Return the docstring as one Markdown paragraph per paragraph."""
+    text = typing.cast(str, cls.__doc__).strip()
+    return "\n".join(line.strip() for line in text.splitlines()).replace("``", "`")
+
+
+def section(title: str, cls: type, level: int = 3, skip: frozenset[str] = frozenset()) -> Iterator[str]:
+    """Yield a heading, the docstring and the keys of a class."""
+    yield f"{'#' * level} {title}"
+    yield ""
+    yield story(cls)
+    yield ""
+    yield from table(cls, skip)
+
+
+def words(key: str, kind: type[enum.StrEnum]) -> Iterator[str]:
+    """Yield what each word of an enumeration means: the text that stands below it in the source."""
+    body = typing.cast(ast.ClassDef, ast.parse(inspect.getsource(kind)).body[0]).body
+    yield f"`{key}`:"
+    yield ""
+    for member, says in itertools.pairwise(body):
+        if isinstance(member, ast.Assign) and isinstance(says, ast.Expr):
+            name = typing.cast(ast.Name, member.targets[0]).id
+            note = " ".join(typing.cast(str, ast.literal_eval(says.value)).split())
+            yield f"- `{kind[name].value}`: {note}".replace("``", "`")
+    yield ""
+
+
+def catalogue(title: str, key: str, classes: Mapping[str, type]) -> Iterator[str]:
+    """Yield a section for every class that a key may name."""
+    yield from (f"## {title}", "", f"The {key} says which of these it is.", "")
+    for name, cls in classes.items():
+        yield from section(f'"{name}"', cls)
+
+
+def page() -> str:
+    """Return the whole page."""
+    look = frozenset(field.name for field in dataclasses.fields(Dress))
+    units = ", ".join(f"`{unit}`" for unit in MM_PER_UNIT if unit not in ('"', "µm"))
+    lines = [HEAD.format(units=units)]
+    lines += section("The recipe", Recipe, 2)
+    lines += section("`[tile]`: the repeat", TileSpec, 2)
+    lines += words("cut", Cut)
+    lines += section("`[cloth]`", ClothSpec, 2)
+    lines += section("`[ink.NAME]`", InkSpec, 2)
+    lines += words("overlap", Overlap)
+    lines += section("`[[place]]`", Placement, 2)
+    lines += ["## `[motif.NAME]`", "", "`kind` says which of these it is.", ""]
+    lines += section('kind = "flower"', Flower)
+    for key, part in (("leaf", Leaf), ("petal", Petals), ("pistil", Pistil), ("core", Core)):
+        lines += section(f"flower.{key}", part, 4, look)
+    lines += section('kind = "rosette"', Rosette)
+    lines += section("rosette.elements", Element, 4, look)
+    lines += ["### The look of every element", ""]
+    lines += table(Dress)
+    lines += words("treatment", Treatment)
+    lines += words("fill", FillRule)
+    lines += catalogue("Curves", "`kind` of the `curve` of an element", CURVES)
+    lines += catalogue("Layouts", "`kind` of the `layout` of a placement", LAYOUTS)
+    lines += section("Spots of a free layout, and `pre` and `post` of a map", Spot)
+    lines += section("Maps of an ifs layout", MapSpec)
+    lines += section("Terms of a map", Term)
+    lines += catalogue("Variations", "`kind` of the `variation` of a term", VARIATIONS)
+    lines += catalogue("`[[output]]`", "`format`", OUTPUTS)
+    return "\n".join(lines).rstrip() + "\n"
+
+
+def main() -> int:
+    """Write the page, or say whether it is stale."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--check", action="store_true", help="write nothing; exit 1 when the page is stale")
+    text = page()
+    if parser.parse_args().check:
+        stale = not PAGE.exists() or PAGE.read_text(encoding="utf-8") != text
+        print(f"{PAGE.name} is stale: run make docs" if stale else f"{PAGE.name} is up to date")
+        return int(stale)
+    PAGE.write_text(text, encoding="utf-8")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
