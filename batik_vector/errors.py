@@ -20,7 +20,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from difflib import SequenceMatcher, get_close_matches
-from os.path import commonprefix
+from itertools import takewhile
 
 
 class BatikError(Exception):
@@ -103,7 +103,11 @@ def nearest(name: str, known: Sequence[str]) -> str | None:
 
     def likeness(each: str) -> tuple[float, bool, int]:
         ratio = SequenceMatcher(None, each, small).ratio()
-        return ratio, sorted(each) == sorted(small), len(commonprefix([each, small]))
+        return (
+            ratio,
+            sorted(each) == sorted(small),
+            sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], zip(each, small, strict=False))),
+        )
 
     best = max(likely, key=likeness, default=None)
     return next((each for each in known if each.lower() == best), None)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -13,7 +14,7 @@ import shapely
 
 from batik_vector.artwork import Artwork
 from batik_vector.compiler import compile_recipe
-from batik_vector.errors import ExportError, Fault, RecipeError
+from batik_vector.errors import ExportError, Fault, GeometryError, RecipeError, SeamError
 from batik_vector.export import FORMATS, render, write_all_whole
 from batik_vector.model import OutputSpec, Recipe
 from batik_vector.outputs import OUTPUTS
@@ -38,7 +39,8 @@ def read_jobs(sources: Sequence[str], overrides: Sequence[str] = ()) -> list[Job
     Raises:
         RecipeError: with everything that is wrong in any of them.
     """
-    jobs, faults = [], []
+    jobs: list[Job] = []
+    faults: list[Fault] = []
     for source in sources:
         try:
             jobs.append(Job(source, load_recipe(source, overrides), tuple(overrides)))
@@ -62,7 +64,8 @@ def planned(jobs: Sequence[Job], folder: Path, formats: Sequence[str] = ()) -> l
         ExportError: where a file cannot be written.
     """
     _check_folder(folder)
-    plans, faults = [], []
+    plans: list[Job] = []
+    faults: list[Fault] = []
     taken: dict[str, Job] = {}
     for job in jobs:
         files = []
@@ -104,9 +107,13 @@ def _twice(path: Path, first: Job, job: Job, output: OutputSpec) -> Fault:
             f'would be written to "{path}", as {first.source} would: rename one, or use another folder for it'
         )
         return Fault(words, source=job.source)
-    number = next((i for i, each in enumerate(job.recipe.output) if each is output), 0)
     words = f'would be written to "{path}", as an output before it would: give it a name of its own'
-    return located(RecipeError([Fault(words, f"output[{number}]")]), job.source, job.recipe.source).faults[0]
+    return located(RecipeError([Fault(words, _key_of(job, output))]), job.source, job.recipe.source).faults[0]
+
+
+def _key_of(job: Job, output: OutputSpec) -> str:
+    """Return the key of the table that asks for an output, or nothing where the call does."""
+    return next((f"output[{i}]" for i, each in enumerate(job.recipe.output) if each is output), "")
 
 
 def _check_folder(folder: Path) -> None:
@@ -125,16 +132,28 @@ def _check_place(path: Path, job: Job) -> None:
         raise ExportError(f"{path} would replace the file it is read from: choose another folder with -o")
 
 
+@contextmanager
+def _on_behalf(job: Job, key: str = "") -> Iterator[None]:
+    """Give the errors of the work inside the job's file, and the line of the key at fault."""
+    try:
+        yield
+    except SeamError as error:
+        raise SeamError(f"{job.source}: {error}") from error
+    except GeometryError as error:
+        raise located(RecipeError([Fault(str(error), key)]), job.source, job.recipe.source) from error
+    except RecipeError as error:
+        raise located(error, job.source, job.recipe.source, job.overrides) from error
+
+
 def made(job: Job, tell: Callable[[str], None]) -> Artwork:
     """Compile a job's recipe.
 
     Raises:
         RecipeError: with the file and the lines.
+        SeamError: where no clean seam is found.
     """
-    try:
+    with _on_behalf(job):
         return compile_recipe(job.recipe, progress=tell)
-    except RecipeError as error:
-        raise located(error, job.source, job.recipe.source, job.overrides) from error
 
 
 def render_output(artwork: Artwork, output: OutputSpec) -> bytes:
@@ -155,7 +174,8 @@ def run(job: Job, tell: Callable[[str], None]) -> dict[str, Any]:
     for path, output in job.files:
         begun = time.perf_counter()
         tell(f"writing {path.name}")
-        data = render_output(artwork, output)
+        with _on_behalf(job, _key_of(job, output)):
+            data = render_output(artwork, output)
         rendered.append((path, data))
         reports.append(
             {

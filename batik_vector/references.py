@@ -26,8 +26,21 @@ def dotted(path: Path) -> str:
             text += f"[{part}]"
         else:
             bare = part and _BARE.issuperset(part)
-            text += ("." if text else "") + (part if bare else f'"{part}"')
+            text += ("." if text else "") + (part if bare else quoted(part))
     return text
+
+
+def quoted(text: str) -> str:
+    """Return a text as TOML writes it, on one line."""
+
+    def spelled(c: str) -> str:
+        if c in '"\\':
+            return f"\\{c}"
+        if c.isprintable():
+            return c
+        return f"\\u{ord(c):04X}" if ord(c) < 0x10000 else f"\\U{ord(c):08X}"
+
+    return '"' + "".join(map(spelled, text)) + '"'
 
 
 def children(node: Any) -> Iterator[tuple[str | int, Any]]:

@@ -16,7 +16,7 @@ from batik_vector.units import MM_PER_UNIT
 
 Schema = dict[str, Any]
 
-_LENGTH_PATTERN = r"^\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,3})?\s*(" + "|".join(MM_PER_UNIT) + r")?\s*$"
+_LENGTH_PATTERN = r"(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,3})?\s*(" + "|".join(MM_PER_UNIT) + r")?\s*$"
 
 
 def schema() -> Schema:
@@ -52,6 +52,8 @@ def _member(member: Member, definitions: dict[str, Schema]) -> Schema:
     says = member.hint.says
     if says:
         found["description"] = f"{says.text} (the paper's {says.symbol})" if says.symbol else says.text
+    elif "$ref" in found:
+        found["description"] = definitions[found["$ref"].rpartition("/")[2]]["description"]
     default = _plain(member.default)
     if default is not None and not member.required:
         found["default"] = default
@@ -66,12 +68,13 @@ def _value(hint: Hint, definitions: dict[str, Schema]) -> Schema:
             for name, cls in one_of.load().items()
         ]
         return {"type": "object", "required": [one_of.tag], "oneOf": choices}
-    if dataclasses.is_dataclass(hint.base):
+    if isinstance(hint.base, type) and dataclasses.is_dataclass(hint.base):
         return _defined(hint.base.__name__, hint.base, definitions, None)
     if hint.names:
         return {"enum": hint.names}
     if hint.length:
-        text = {"type": "string", "pattern": _LENGTH_PATTERN}
+        sign = "[+]?" if hint.bounds and hint.bounds.low >= 0 else "[+-]?"
+        text = {"type": "string", "pattern": rf"^\s*{sign}{_LENGTH_PATTERN}"}
         return {"anyOf": [_number("number", hint), text], "examples": [example(hint)]}
     if hint.base in (int, float):
         return _number("integer" if hint.base is int else "number", hint)

@@ -7,6 +7,7 @@ import re
 from pathlib import Path
 
 from batik_vector.errors import ExportError
+from batik_vector.references import quoted
 
 _TITLE = re.compile(r"^title( *)= .*$", re.MULTILINE)
 _FILE_NAME = re.compile(r"[^\w.+-]+")
@@ -26,7 +27,7 @@ def write_starter(starter: Path, name: str | None, path: str | None, force: bool
     """
     text = starter.read_text("utf-8")
     if name is not None:
-        title = _toml_text(name)
+        title = quoted(name.removesuffix(".toml").encode("utf-8", "replace").decode("utf-8"))
         text = _TITLE.sub(lambda found: f"title{found[1]}= {title}", text, count=1)
     target = Path(path) if path is not None else Path(_file_name(name or starter.stem))
     try:
@@ -47,13 +48,3 @@ def write_starter(starter: Path, name: str | None, path: str | None, force: bool
 def _file_name(name: str) -> str:
     name = name.removesuffix(".toml")
     return f"{_FILE_NAME.sub('-', os.path.basename(name)).strip('.-').lower() or 'recipe'}.toml"
-
-
-def _toml_text(text: str) -> str:
-    """Return a text in TOML's quotes."""
-    safe = text.removesuffix(".toml").encode("utf-8", "replace").decode("utf-8")
-    escaped = "".join(
-        f"\\{c}" if c in '"\\' else c if c.isprintable() else f"\\u{ord(c):04X}" if ord(c) < 0x10000 else ""
-        for c in safe
-    )
-    return f'"{escaped}"'

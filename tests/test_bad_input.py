@@ -14,7 +14,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from batik_vector.cli import cli
-from batik_vector.errors import ExportError
+from batik_vector.errors import ExportError, SeamError
 
 BASE = """\
 title = "Test"
@@ -217,6 +217,24 @@ def test_two_outputs_of_one_name_are_refused(desk: Path) -> None:
         'k.toml:26: output[1]: would be written to "out/k.svg", as an output before it would: '
         "give it a name of its own"
     ]
+
+
+def test_a_field_too_large_is_told_of_its_output(desk: Path) -> None:
+    (desk / "k.toml").write_text(BASE + "repeat = [200, 200]")
+    found = complaints(call("k.toml"))
+    assert len(found) == 1
+    assert found[0].startswith("k.toml:23: output[0]: the field would have about ")
+
+
+def test_a_seam_that_does_not_hold_is_a_fault_of_the_work(
+    desk: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def gape(*_: Any, **__: Any) -> None:
+        raise SeamError("opposite edges disagree")
+
+    (desk / "k.toml").write_text(BASE)
+    monkeypatch.setattr("batik_vector.jobs.compile_recipe", gape)
+    assert complaints(call("k.toml"), 1) == ["k.toml: opposite edges disagree"]
 
 
 def test_an_output_that_is_a_folder_is_refused(desk: Path) -> None:

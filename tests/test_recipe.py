@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import datetime
-import itertools
-import re
 import tomllib
-from dataclasses import fields, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -16,22 +14,17 @@ from hypothesis import strategies as st
 
 from batik_vector import compile_recipe, load_recipe, read_recipe, write_artwork
 from batik_vector.artwork import Artwork, Cell, Overlap
-from batik_vector.cli import STARTERS
 from batik_vector.errors import Fault, GeometryError, RecipeError
 from batik_vector.export.options import DxfOptions, SvgOptions
-from batik_vector.geometry.curves import CURVES
-from batik_vector.geometry.maps import VARIATIONS
-from batik_vector.model import ClothSpec, InkSpec, Placement, Recipe
-from batik_vector.motif import MOTIFS, Flower, Pistil, Rosette
-from batik_vector.outputs import OUTPUTS, PdfOutput, SvgOutput
-from batik_vector.reading.hints import members
+from batik_vector.model import ClothSpec, InkSpec, Placement
+from batik_vector.motif import Flower, Pistil, Rosette
+from batik_vector.outputs import PdfOutput, SvgOutput
 from batik_vector.reading.lines import Lines, parse_path
 from batik_vector.recipe import located
 from batik_vector.references import Path as Keys
 from batik_vector.references import dotted
-from batik_vector.schema import schema
 from batik_vector.tiling.cells import TileSpec
-from batik_vector.tiling.layouts import LAYOUTS, Julian
+from batik_vector.tiling.layouts import Julian
 
 DESIGN = """\
 title = "Four-square flower"            # Tian et al. 2019, Figure 14b
@@ -133,12 +126,13 @@ def test_colours_have_one_spelling() -> None:
 def test_line_ends_and_a_byte_order_mark_change_nothing(tmp_path: Path) -> None:
     path = tmp_path / "k.toml"
     path.write_bytes(b"\xef\xbb\xbf" + SMALL.replace("\n", "\r\n").encode())
-    assert load_recipe(path) == read_recipe(SMALL)
+    assert load_recipe(path) == read_recipe(SMALL) == read_recipe(SMALL.replace("\n", "\r\n"))
 
 
 def test_outputs_have_the_options_of_their_format() -> None:
     text = '[[output]]\nformat = "svg"\nname = "field"\nprofile = "compact"\nrepeat = [3, 2]\n'
-    text += '[[output]]\nformat = "pdf"\nbleed = "5 mm"\ninks = "spot"\n[[output]]\nformat = "dxf"\nversion = "R12"\n'
+    text += '[[output]]\nformat = "pdf"\nbleed = "5 mm"\ninks = "spot"\n'
+    text += '[[output]]\nformat = "dxf"\nversion = "R12"\n'
     svg, pdf, dxf = read_recipe(SMALL + text).output
     assert isinstance(svg, SvgOutput)
     assert isinstance(pdf, PdfOutput)
@@ -226,9 +220,9 @@ def test_the_text_says_what_was_set(change: str, path: Keys, value: Any) -> None
 def test_a_fault_that_was_set_is_told_of_the_setting_and_others_of_their_line() -> None:
     text = DESIGN.replace('"0.02 mm"', "0")
     assert faults(text, "seed=-1", "motif.flower.pistil.count=10") == [
+        "--set motif.flower.pistil.count=10: motif.flower.pistil.count: 10 with cusp = 5: "
+        "m = 10 is twice n = 5, a line segment: with n = 5 try m = 8, 9, 11",
         "--set seed=-1: seed: -1, expected 0 to 9223372036854775807",
-        "--set motif.flower.pistil.count=10: motif.flower.pistil.count: 10 with cusp = 5: m = 10 is twice n = 5,"
-        " a line segment: with n = 5 try m = 8, 9, 11",
         "k.toml:2: tolerance: 0, expected 0.002 to 5 mm",
     ]
 
@@ -317,15 +311,12 @@ def test_every_key_has_its_line(key: str, line: int | None) -> None:
     assert Lines(text).line(parse_path(key)) == line
 
 
-keys = st.lists(st.one_of(st.text(max_size=4), st.integers(0, 9)), max_size=5).map(lambda rest: ("k", *rest))
+keys = st.lists(st.one_of(st.text(st.characters(codec="utf-8"), max_size=4), st.integers(0, 9)), max_size=5)
 
 
 @given(keys)
-def test_paths_are_read_as_they_are_written(path: Keys) -> None:
-    path = tuple(
-        part if isinstance(part, int) or part.isprintable() and '"' not in part and "\\" not in part else "x"
-        for part in path
-    )
+def test_paths_are_read_as_they_are_written(rest: list[str | int]) -> None:
+    path = ("k", *rest)
     assert parse_path(dotted(path)) == path
 
 
@@ -373,116 +364,3 @@ def test_a_fault_of_a_later_stage_is_given_its_line() -> None:
         "y.toml:3: x",
         "k.toml:20: place[0].layout.power: 0: not so",
     ]
-
-
-# The schema, read by the few rules that it uses.
-
-SCHEMA = schema()
-
-
-def accepts(rules: dict[str, Any], value: Any) -> bool:
-    if "$ref" in rules:
-        return accepts(SCHEMA["$defs"][rules["$ref"].removeprefix("#/$defs/")], value)
-    kinds = {
-        "object": dict,
-        "array": list,
-        "string": str,
-        "boolean": bool,
-        "integer": int,
-        "number": (int, float),
-    }
-    kind = rules.get("type")
-    if kind and (not isinstance(value, kinds[kind]) or (isinstance(value, bool) and kind != "boolean")):
-        return False
-    tests = [
-        "const" not in rules or value == rules["const"],
-        "enum" not in rules or value in rules["enum"],
-        "minimum" not in rules or rules["minimum"] <= value <= rules["maximum"],
-        "pattern" not in rules or re.search(rules["pattern"], value) is not None,
-        "minItems" not in rules or rules["minItems"] <= len(value) <= rules["maxItems"],
-        "oneOf" not in rules or sum(accepts(each, value) for each in rules["oneOf"]) == 1,
-        "anyOf" not in rules or any(accepts(each, value) for each in rules["anyOf"]),
-    ]
-    return all(tests) and _accepts_inside(rules, value)
-
-
-def _accepts_inside(rules: dict[str, Any], value: Any) -> bool:
-    if isinstance(value, list):
-        pairs = zip(value, rules.get("prefixItems", itertools.repeat(rules.get("items", {}))), strict=False)
-        return all(accepts(rule, each) for each, rule in pairs)
-    if not isinstance(value, dict):
-        return True
-    known, more = rules.get("properties", {}), rules.get("additionalProperties", {})
-    return all(name in value for name in rules.get("required", ())) and all(
-        accepts(known[key], each) if key in known else more is not False and accepts(more, each)
-        for key, each in value.items()
-    )
-
-
-@pytest.mark.parametrize("path", sorted(STARTERS.glob("*.toml")), ids=lambda path: path.stem)
-def test_the_schema_accepts_what_compiles(path: Path) -> None:
-    assert accepts(SCHEMA, tomllib.loads(path.read_text("utf-8")))
-
-
-BAD = tomllib.loads((Path(__file__).parent / "bad_input.toml").read_text("utf-8"))["recipe"]
-BEYOND = {
-    *(
-        "a point",
-        "a segment",
-        "m = 3",
-        "P1 = 0",
-        "a row too many",
-        "past the limit",
-        "drop 1/0",
-        "path in a name",
-    ),
-    *(
-        "unknown motif",
-        "unknown ink",
-        "unknown ink of an element",
-        "width and scale",
-        "neither",
-        "several inks",
-    ),
-    *("open table", "broken table", "key twice", "ink twice"),
-}
-"""What no schema can say: how values hang together; and what is no TOML."""
-
-
-@pytest.mark.parametrize(
-    "case", [case for case in BAD if case["name"] not in BEYOND], ids=lambda case: case["name"]
-)
-def test_the_schema_refuses_what_is_refused(case: dict[str, Any]) -> None:
-    from tests.test_bad_input import recipe
-
-    text = recipe({int(number): line for number, line in case["lines"].items()})
-    assert not accepts(SCHEMA, tomllib.loads(text))
-    assert accepts(SCHEMA, tomllib.loads(recipe()))
-
-
-def test_every_kind_and_every_bound_is_in_the_schema() -> None:
-    for what, catalogue in (
-        ("motif", MOTIFS),
-        ("layout", LAYOUTS),
-        ("curve", CURVES),
-        ("variation", VARIATIONS),
-        ("output", OUTPUTS),
-    ):
-        for name, cls in catalogue.items():
-            table = SCHEMA["$defs"][f"{what}.{name}"]
-            assert table["properties"]["format" if what == "output" else "kind"] == {"const": name}
-            assert set(members(cls)) < set(table["properties"])
-            assert table["description"]
-    count = SCHEMA["$defs"]["Leaf"]["properties"]["count"]
-    assert (count["type"], count["minimum"], count["maximum"], count["default"]) == ("integer", 0, 360, 8)
-    assert "source" not in SCHEMA["properties"]
-
-
-def test_every_key_of_a_recipe_has_help() -> None:
-    for table in (SCHEMA, *SCHEMA["$defs"].values()):
-        for name, rules in table["properties"].items():
-            assert "const" in rules or rules.get("description"), name
-
-
-def test_every_field_of_a_recipe_is_read_or_hidden() -> None:
-    assert set(members(Recipe)) == {field.name for field in fields(Recipe)} - {"source"}

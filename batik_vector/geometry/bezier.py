@@ -357,7 +357,7 @@ def _runs(
     fall = 2 * np.tan(np.clip(_wrap(angle - np.roll(heading, -1)), -1.4, 1.4) / 2)
     # Chords are not expected to stand off farther: what bends more bends beyond their ends.
     height = np.abs(chord) * (np.abs(rise) + np.abs(fall)) / 8
-    tame = np.where(_regular(lines)[vertex], 1.0, np.minimum(1.5 * scale / np.maximum(height, scale), 1.0))
+    tame = np.where(_regular(lines)[vertex], 1.0, scale / np.maximum(height, scale))
     rise, fall = rise * tame, fall * tame
     rise[last] = fall[last] = 0
     arc = np.abs(chord) * (1 + (rise**2 + fall**2) / 12)
@@ -617,20 +617,27 @@ def _error(runs: _Runs, power: Complex, at: Indices, own: Indices, u: Array, tol
     the smooth interpretation of its edge, and near the edge itself.
     """
     c0, c1, c2, c3 = power
-    error = np.abs(c0 + u * (c1 + u * (c2 + u * c3)) - runs.dense[at]) / tolerance
-    i = np.flatnonzero(own[1:] == own[:-1])
+    point = c0 + u * (c1 + u * (c2 + u * c3))
+    error = np.abs(point - runs.dense[at]) / tolerance
+    i, middle = np.flatnonzero(own[1:] == own[:-1]), np.flatnonzero(at % 2)
     half = (u[i] + u[i + 1]) / 2
-    edge = at[i] // 2
-    point = c0[i] + half * (c1[i] + half * (c2[i] + half * c3[i])) - runs.dense[2 * edge]
+    between = c0[i] + half * (c1[i] + half * (c2[i] + half * c3[i]))
+    # A curve that runs backwards between its data has a loop.
+    off = np.where(u[i + 1] > u[i], _stray(runs, between, at[i] // 2, tolerance), 1e3)
+    error[i] = np.maximum(error[i], off)
+    error[middle] = np.maximum(error[middle], _stray(runs, point[middle], at[middle] // 2, tolerance))
+    return np.asarray(error)
+
+
+def _stray(runs: _Runs, point: Complex, edge: Indices, tolerance: float) -> Array:
+    """Return how far, in parts of what is allowed, points are from their edges and from the arcs over them."""
     chord, rise, fall = runs.chord[edge], runs.rise[edge], runs.fall[edge]
     length = np.abs(chord)
-    point *= chord.conj() / length
+    point = (point - runs.dense[2 * edge]) * chord.conj() / length
     part = np.clip(point.real / length, 0, 1)
     beyond = point.real - part * length
     arc = length * part * (1 - part) * (rise * (1 - part) + fall * part)
     height = length * (np.abs(rise) + np.abs(fall)) / 8
     allowed = tolerance / 2 + np.maximum(tolerance / 2 + np.minimum(height, tolerance / 2), height)
-    off = np.maximum(np.hypot(beyond, point.imag - arc) / tolerance, np.hypot(beyond, point.imag) / allowed)
-    # A curve that runs backwards between its data has a loop.
-    error[i] = np.maximum(error[i], np.where(u[i + 1] > u[i], off, 1e3))
-    return np.asarray(error)
+    off = np.hypot(beyond, point.imag - arc) / tolerance
+    return np.asarray(np.maximum(off, np.hypot(beyond, point.imag) / allowed))

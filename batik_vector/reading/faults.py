@@ -194,9 +194,10 @@ def unknown_keys(data: Any, hint: Hint, path: Path = ()) -> list[Found]:
     """Return every key that the classes of its table do not know, with the nearest that they do."""
     found: list[Found] = []
     if isinstance(data, list):
-        items = hint.items or [hint.item if hint.many else None] * len(data)
-        for index, (each, item) in enumerate(zip(data, items, strict=False)):
-            found += unknown_keys(each, item or Hint(object), (*path, index))
+        item = hint.item if hint.many else None
+        items = hint.items or [item or Hint(object)] * len(data)
+        for index, (each, inner) in enumerate(zip(data, items, strict=False)):
+            found += unknown_keys(each, inner, (*path, index))
         return found
     cls = chosen(hint, data)
     if not isinstance(data, dict) or not (cls or hint.origin is dict):
@@ -204,11 +205,11 @@ def unknown_keys(data: Any, hint: Hint, path: Path = ()) -> list[Found]:
     known = members(cls) if cls else {}
     tag = hint.one_of.tag if hint.one_of else None
     for key, value in data.items():
-        inner = known[key].hint if key in known else hint.item
+        within = known[key].hint if key in known else hint.item
         if cls and key not in known:
             found += [] if key == tag else [_unknown_key(key, cls, tag, path)]
-        elif inner:
-            found += unknown_keys(value, inner, (*path, key))
+        elif within:
+            found += unknown_keys(value, within, (*path, key))
     return found
 
 

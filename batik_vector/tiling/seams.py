@@ -102,3 +102,50 @@ def on_seam(areas: Geometries, window: Window) -> NDArray[np.int64]:
             for low, high in border(areas, axis, value):
                 found.append((axis, low, high))
     return np.array(found, np.int64).reshape(-1, 3)
+
+
+MEND_STEPS = 4
+"""Breaks up to this long (grid steps) come from rounding and are mended; longer ones never do."""
+
+
+def mended(areas: Geometries, cell: Cell) -> Geometries:
+    """Return areas whose far edges repeat their near ones where rounding left them a step or two apart.
+
+    Edges that cross or nearly coincide close to a seam may be rounded differently on its two sides. The
+    vertices on the far edge are then moved along it to where their twins stand; a contact that one side
+    alone has, of a few steps, is closed. What is longer is left for :func:`mismatch` to tell.
+    """
+    for axis, near, far, shift in opposite_edges(cell):
+        length = cell.rows if axis == 0 else cell.columns
+        here = border(areas, axis, near)
+        there = rolled(border(areas, axis, far), -shift, length)
+        for low, high in symmetric_difference(here, there).tolist():
+            if high - low > MEND_STEPS:
+                continue
+            of_here = [p for p in (low, high) if p in here]
+            of_there = [p for p in (low, high) if p in there]
+            if len(of_there) == 1:
+                target = low + high - of_there[0]
+                moves = [((of_there[0] + shift) % length, (target + shift) % length, far)]
+            elif of_there:
+                moves = [((high + shift) % length, (low + shift) % length, far)]
+            else:
+                moves = [(high, low, near)] if len(of_here) == 2 else []
+            for old, new, value in moves:
+                areas = _moved(areas, axis, value, old, new)
+    return areas
+
+
+def _moved(areas: Geometries, axis: int, value: int, old: int, new: int) -> Geometries:
+    """Move the vertices at one place of an edge to another."""
+    bounds = shapely.bounds(areas)
+    at = np.flatnonzero((bounds[:, axis] <= value) & (bounds[:, axis + 2] >= value))
+
+    def move(coords: NDArray[np.float64]) -> NDArray[np.float64]:
+        hit = (coords[:, axis] == value) & (coords[:, 1 - axis] == old)
+        coords[hit, 1 - axis] = new
+        return coords
+
+    areas = areas.copy()
+    areas[at] = shapely.remove_repeated_points(shapely.transform(areas[at], move))
+    return areas

@@ -130,6 +130,7 @@ def _assemble_on(
     layers = []
     for ink in inks:
         merged = _merge(areas[ink.name], ink.overlap)
+        merged.geometries = seams.mended(merged.geometries, torus.cell)
         if not torus.seam_holds(merged.geometries):
             return None
         layers.append(
@@ -162,6 +163,8 @@ class _Torus:
 
     def seam_holds(self, areas: Geometries) -> bool:
         """Whether opposite edges agree, but for borders that were drawn along the seam on purpose."""
+        if not shapely.is_valid(areas).all():
+            return False
         breaks = seams.mismatch(areas, self.cell)
         if not len(breaks):
             return True
