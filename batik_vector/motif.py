@@ -55,6 +55,7 @@ class Dress:
         Annotated[Length, Between(0, 1000)] | None,
         Says("ground kept bare round it by cutting what lies beneath"),
     ] = None
+    whole: Annotated[bool, Says("left out, not cut, where something above would cut it")] = False
     contours: Annotated[int, Between(1, 64), Says("nested contours, evenly spaced to the centre", "l")] = 1
 
     def __post_init__(self) -> None:

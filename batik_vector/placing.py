@@ -174,17 +174,20 @@ def _sheets(
     if gap is None and ink.overlap == Overlap.KNOCKOUT:
         gap = 0.0
     if element.treatment == Treatment.AREA:
-        return [Sheet(name, ink, areas, gap=gap)]
+        return [Sheet(name, ink, areas, gap=gap, whole=element.whole)]
     half = ink.width / 2
     if element.treatment == Treatment.BOTH:
         pen = _ink(element, element.line_ink, inks) if element.line_ink else ink
-        return [Sheet(name, ink, areas, gap=gap), Sheet(f"{name}.line", pen, lines=lines)]
+        return [
+            Sheet(name, ink, areas, gap=gap, whole=element.whole),
+            Sheet(f"{name}.line", pen, lines=lines),
+        ]
     segments = quad_segs(half, tolerance)
     whole = shapely.buffer(areas, half, quad_segs=segments) if gap is not None and len(areas) else areas[:0]
     if element.treatment == Treatment.LINE:
         return [Sheet(name, ink, lines=lines, gap=gap, cutter=whole)]
     body: Geometries = np.asarray(shapely.buffer(lines, half, quad_segs=segments), dtype=object)
-    return [Sheet(name, ink, body, gap=gap, cutter=np.concatenate([body, whole]))]
+    return [Sheet(name, ink, body, gap=gap, cutter=np.concatenate([body, whole]), whole=element.whole)]
 
 
 def _ink(element: Element, name: str, inks: Mapping[str, Ink]) -> Ink:

@@ -152,13 +152,13 @@ def fit_cubics(coords: Points, offsets: Indices, closed: Mask, tolerance: float)
     """
     if not (np.isfinite(coords).all() and 0 < tolerance < np.inf):
         raise GeometryError("cannot fit curves to coordinates that are not finite, or without a tolerance")
-    closed, flat = np.asarray(closed, bool), min(FLAT, tolerance / 5)
+    closed = np.asarray(closed, bool)
     lines, breaks = _read(coords, np.asarray(offsets, np.intp), closed, tolerance)
     path, start, stop, smooth_ring = _stretches(lines, closed, breaks)
     # A stretch of one edge has no vertices to bend it.
     bent = stop - start > 1
     runs = _runs(lines, path, start, stop, bent, smooth_ring, max(tolerance, SAMPLING))
-    a, b, handles, failed = _fit_runs(runs, tolerance - flat)
+    a, b, handles, failed = _fit_runs(runs, tolerance)
     position = _ranges(start[bent], runs.edges + 1)
     begin, end = np.concatenate([start[~bent], position[a]]), np.concatenate([stop[~bent], position[b]])
     straight = np.concatenate([np.ones(len(begin) - len(a), bool), failed])
@@ -177,6 +177,10 @@ def _ranges(start: Indices, size: Indices) -> Indices:
     return np.asarray(np.arange(int(size.sum())) + np.repeat(start - skip, size))
 
 
+def _flat(tolerance: float) -> float:
+    return min(FLAT, tolerance / 5)
+
+
 def _wrap(angle: Array) -> Array:
     return np.asarray((angle + np.pi) % (2 * np.pi) - np.pi)
 
@@ -184,7 +188,7 @@ def _wrap(angle: Array) -> Array:
 def _read(coords: Points, offsets: Indices, closed: Mask, tolerance: float) -> tuple[_Lines, Mask]:
     """Return the polylines, without vertices that say nothing, and the breaks between their stretches."""
     at, line = _distinct(coords, offsets, closed)
-    flat = min(FLAT, tolerance / 5)
+    flat = _flat(tolerance)
     keep = _bends(at, line, closed, flat)
     lines = _lines(at[keep], line[keep], closed)
     breaks = _breaks(lines, tolerance)
@@ -339,19 +343,14 @@ def _runs(
     heading = _headings(at, bend, local, np.repeat(edges, size), np.repeat(smooth_ring[bent], size))
     single = np.zeros(len(lines.at), bool)
     single[path[start[~bent]]] = True
-    for end, chord_, next_, edge in (
+    for end, edge, far, beyond in (
         (first, first, first + 1, lines.before[vertex[first]]),
         (last, last - 1, last - 1, vertex[last]),
     ):
-        # Nothing beyond an end tells its direction: it is kept near to that of a parabola.
-        inner = lines.heading[vertex[chord_]]
-        bow = _wrap(inner - heading[next_])
-        reach = np.where(smooth_ring[bent], np.pi, np.abs(bow) + 2 * scale / np.abs(chord[chord_]))
-        heading[end] = inner + bow + np.clip(_wrap(heading[end] - inner - bow), -reach, reach)
-        # A straight edge that the curve leaves or meets without a kink gives it its tangent.
-        kink = np.abs(_wrap(heading[end] - lines.heading[edge]))
-        smooth = single[edge] & (kink <= 0.35 * np.abs(_wrap(inner - lines.heading[edge])) + 0.01)
-        heading[end[smooth]] = lines.heading[edge[smooth]]
+        inner = lines.heading[vertex[edge]]
+        bow = _wrap(inner - heading[far])
+        reach = np.where(smooth_ring[bent], np.pi, np.abs(bow) + 2 * scale / np.abs(chord[edge]))
+        heading[end] = _end_heading(heading[end], inner, bow, reach, single[beyond], lines.heading[beyond])
     angle = np.angle(chord)
     rise = 2 * np.tan(np.clip(_wrap(heading - angle), -1.4, 1.4) / 2)
     fall = 2 * np.tan(np.clip(_wrap(angle - np.roll(heading, -1)), -1.4, 1.4) / 2)
@@ -361,15 +360,30 @@ def _runs(
     rise, fall = rise * tame, fall * tame
     rise[last] = fall[last] = 0
     arc = np.abs(chord) * (1 + (rise**2 + fall**2) / 12)
-    travel = np.cumsum(arc) - arc
     middle = at + chord * (0.5 + 0.125j * (rise + fall))
     dense = np.column_stack([at, middle]).ravel()
-    travel = np.column_stack([travel, travel + arc / 2]).ravel()
     bend = np.abs(np.where(np.abs(chord) > 0, rise + fall, 0))
-    step = np.cbrt(bend * arc * arc)
-    pace = np.cumsum(step) - step
-    pace = np.column_stack([pace, pace + step / 2]).ravel()
+    travel, pace = _halfway(arc), _halfway(np.cbrt(bend * arc * arc))
     return _Runs(dense, travel, pace, np.exp(1j * heading), chord, rise, fall, bend, first, edges)
+
+
+def _halfway(step: Array) -> Array:
+    """Return what steps add up to before each and in its middle, by turns."""
+    total = np.cumsum(step)
+    return np.column_stack([total - step, total - step / 2]).ravel()
+
+
+def _end_heading(
+    heading: Array, inner: Array, bow: Array, reach: Array, straight: Mask, beyond: Array
+) -> Array:
+    """Return the directions at the ends of stretches, given those of their first or last chords.
+
+    Nothing beyond an end tells its direction: it is kept near to that of a parabola. A straight edge
+    beyond that the curve meets without a kink gives it its own.
+    """
+    heading = inner + bow + np.clip(_wrap(heading - inner - bow), -reach, reach)
+    kink, step = np.abs(_wrap(heading - beyond)), np.abs(_wrap(inner - beyond))
+    return np.where(straight & (kink <= 0.35 * step + 0.01), beyond, heading)
 
 
 def _headings(at: Complex, bend: Array, local: Indices, edges: Indices, ring: Mask) -> Array:
@@ -618,7 +632,8 @@ def _error(runs: _Runs, power: Complex, at: Indices, own: Indices, u: Array, tol
     """
     c0, c1, c2, c3 = power
     point = c0 + u * (c1 + u * (c2 + u * c3))
-    error = np.abs(point - runs.dense[at]) / tolerance
+    # Vertices left out may be farther off by as much as they stood off their neighbours' line.
+    error = np.abs(point - runs.dense[at]) / (tolerance - _flat(tolerance))
     i, middle = np.flatnonzero(own[1:] == own[:-1]), np.flatnonzero(at % 2)
     half = (u[i] + u[i + 1]) / 2
     between = c0[i] + half * (c1[i] + half * (c2[i] + half * c3[i]))
@@ -630,7 +645,11 @@ def _error(runs: _Runs, power: Complex, at: Indices, own: Indices, u: Array, tol
 
 
 def _stray(runs: _Runs, point: Complex, edge: Indices, tolerance: float) -> Array:
-    """Return how far, in parts of what is allowed, points are from their edges and from the arcs over them."""
+    """Return how far points are from their edges and the arcs over them, in parts of what is allowed.
+
+    From an edge that is the tolerance and the height of its arc, but no more than 1.5 times the tolerance
+    unless the arc alone stands off that far: then it is half the tolerance and the height.
+    """
     chord, rise, fall = runs.chord[edge], runs.rise[edge], runs.fall[edge]
     length = np.abs(chord)
     point = (point - runs.dense[2 * edge]) * chord.conj() / length

@@ -113,7 +113,7 @@ def chosen(hint: Hint, value: Any) -> type | None:
     if hint.one_of is not None:
         tag = value.get(hint.one_of.tag) if isinstance(value, dict) else None
         return hint.one_of.load().get(tag) if isinstance(tag, str) else None
-    return hint.base if dataclasses.is_dataclass(hint.base) else None
+    return hint.base if isinstance(hint.base, type) and dataclasses.is_dataclass(hint.base) else None
 
 
 def number(value: float) -> str:

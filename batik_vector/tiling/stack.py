@@ -48,7 +48,8 @@ class Sheet:
 
     ``ink`` is None for a sheet that only cuts. ``gap`` is how many mm of ground it keeps bare round its
     shape by cutting what lies beneath; None cuts nothing. ``cutter`` is the shape that cuts, where it is
-    not the areas drawn (an outlined petal hides what lies under the whole petal).
+    not the areas drawn (an outlined petal hides what lies under the whole petal). ``whole`` leaves out
+    marks that would be cut, as nobody waxes half a dot.
     """
 
     name: str
@@ -57,6 +58,7 @@ class Sheet:
     lines: Geometries = field(default_factory=_none)
     gap: float | None = None
     cutter: Geometries = field(default_factory=_none)
+    whole: bool = False
 
 
 @dataclass
@@ -113,7 +115,7 @@ def _assemble_on(
     for number in range(len(sheets) - 1, -1, -1):
         sheet = sheets[number]
         if sheet.ink is not None:
-            drawn = torus.areas(sheet.areas, number)
+            drawn = torus.areas(_uncut(sheet, torus, cutters), number)
             strokes = torus.lines(sheet.lines, number)
             if above and len(strokes.geometries):
                 # A line ends where its body, and not its centre, meets the gap.
@@ -147,8 +149,10 @@ class _Torus:
         self.window = Window(0, 0, cell.columns, cell.rows)
         self.allowed: list[NDArray[np.int64]] = []
 
-    def areas(self, marks: Geometries, name: int) -> _Marks:
-        pieces, names = polygons_of(to_step_grid(marks), np.full(len(marks), name, np.intp))
+    def areas(self, marks: Geometries, name: int | NDArray[np.intp]) -> _Marks:
+        pieces, names = polygons_of(
+            to_step_grid(marks), np.broadcast_to(np.asarray(name, np.intp), len(marks))
+        )
         pieces = translate(pieces, np.repeat(self.phase, len(pieces), axis=0))
         pieces, names = wrap(pieces, names, self.lattice, self.window)
         self.allowed.append(seams.on_seam(pieces, self.window))
@@ -176,6 +180,18 @@ class _Torus:
             if not np.array_equal(together, legal):
                 return False
         return True
+
+
+def _uncut(sheet: Sheet, torus: _Torus, cutters: Geometries) -> Geometries:
+    """Return a sheet's areas; of one that keeps whole marks only, those that nothing above touches.
+
+    A mark is asked for as a whole, wherever the seam divides it.
+    """
+    if not sheet.whole or not len(cutters) or not len(sheet.areas):
+        return sheet.areas
+    pieces = torus.areas(sheet.areas, np.arange(len(sheet.areas)))
+    touched, _ = shapely.STRtree(cutters).query(pieces.geometries, predicate="intersects")
+    return np.delete(sheet.areas, np.unique(pieces.names[touched]))
 
 
 def _cutting_shape(sheet: Sheet, tolerance: float, extra: float) -> Geometries:

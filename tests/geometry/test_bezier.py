@@ -101,14 +101,14 @@ def test_fit_is_near_the_true_curve_both_ways(name: str, sampling: float) -> Non
 
 @pytest.mark.parametrize("sampling", [CHORD, 0.005])
 def test_wild_curves_are_kept_to(sampling: float) -> None:
-    for seed in range(20):
+    for seed in (*range(20), 69):
         points, truth = ring_of(Wild(seed), sampling), ring_of(Wild(seed), 1e-3)
         cubics = fit(points)
         dense = drawn(cubics, 120)
         assert stray(points, dense) <= TOLERANCE, seed
         # A hairpin between two vertices has no smooth interpretation to hold the fit to.
-        assert stray(dense, points) <= 2.5 * TOLERANCE, seed
-        assert stray(dense, truth) <= 2.5 * TOLERANCE, seed
+        assert stray(dense, points) <= 1.6 * TOLERANCE, seed
+        assert stray(dense, truth) <= 2.2 * TOLERANCE, seed
 
 
 def test_the_check_can_fail() -> None:

@@ -125,12 +125,16 @@ def difference(a: NDArray[np.object_], b: NDArray[np.object_]) -> float:
     return float(shapely.area(a).sum() + shapely.area(b).sum()) - 2 * common
 
 
+def welded(recipe: Recipe) -> Recipe:
+    """The recipe as a rectangle in which no ink lies over itself, so that areas can be added up."""
+    inks = {name: replace(ink, overlap=Overlap.WELD) for name, ink in recipe.ink.items()}
+    return replace(recipe, ink=inks, tile=replace(recipe.tile, cut=Cut.RECTANGLE))
+
+
 @settings(many, max_examples=150)
 @given(recipes(), st.floats(0.01, 0.99), st.floats(0.01, 0.99))
 def test_the_field_cut_elsewhere_is_the_tile(recipe: Recipe, u: float, v: float) -> None:
-    straight = replace(recipe, tile=replace(recipe.tile, cut=Cut.RECTANGLE))
-    inks = {name: replace(ink, overlap=Overlap.WELD) for name, ink in recipe.ink.items()}
-    artwork = compiled(replace(straight, ink=inks))
+    artwork = compiled(welded(recipe))
     field = repeated(artwork, 2, 2)
     assert violations(field) == []
     again = rolled(field, artwork.cell, (u * artwork.cell.width, v * artwork.cell.height))
@@ -141,7 +145,7 @@ def test_the_field_cut_elsewhere_is_the_tile(recipe: Recipe, u: float, v: float)
 @settings(many, max_examples=60)
 @given(recipes(), st.integers(1, 14_000), st.integers(1, 14_000))
 def test_moving_every_placement_moves_the_drawing_and_nothing_else(recipe: Recipe, dx: int, dy: int) -> None:
-    straight = replace(recipe, tile=replace(recipe.tile, cut=Cut.RECTANGLE))
+    straight = welded(recipe)
     moved = replace(
         straight,
         place=tuple(
