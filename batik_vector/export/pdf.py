@@ -179,10 +179,8 @@ def _file(page: _Page, content: bytes) -> bytes:
 
 
 def _page_object(page: _Page, groups: range, spots: range) -> bytes:
-    width, height, edge = (
-        _number(steps * POINTS_PER_STEP / page.unit, 8) for steps in (*page.size, page.bleed)
-    )
-    right, top = (_number((steps - page.bleed) * POINTS_PER_STEP / page.unit, 8) for steps in page.size)
+    width, height, edge = (_points(steps, page.unit) for steps in (*page.size, page.bleed))
+    right, top = (_points(steps - page.bleed, page.unit) for steps in page.size)
     whole = f"[0 0 {width} {height}]"
     properties = " ".join(f"/L{i} {number} 0 R" for i, number in enumerate(groups))
     spaces = " ".join(f"/S{i} {number} 0 R" for i, number in enumerate(spots))
@@ -192,6 +190,11 @@ def _page_object(page: _Page, groups: range, spots: range) -> bytes:
         f"/TrimBox [{edge} {edge} {right} {top}] {unit}/Contents 4 0 R "
         f"/Resources << /Properties << {properties} >> /ColorSpace << {spaces} >> >> >>"
     ).encode("ascii")
+
+
+def _points(steps: float, unit: float) -> str:
+    """Return a length in page units, rounded down: a hair too wide, and renderers add a row of pixels."""
+    return _number(math.floor(steps * POINTS_PER_STEP / unit * 1e8) / 1e8, 8)
 
 
 def _device_colour(colour: str) -> tuple[str, str]:

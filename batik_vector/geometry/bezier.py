@@ -132,10 +132,11 @@ class _Runs:
 def fit_cubics(coords: Points, offsets: Indices, closed: Mask, tolerance: float) -> Cubics:
     """Fit cubic Béziers to polylines and rings.
 
-    Corners stay nodes and long straight edges stay straight; all other joints share their tangent. The
-    fit keeps within the tolerance of every vertex, and between vertices of the smooth curve that they
-    suggest: it stands off the polyline by no more than the tolerance beyond the chord's own height, and
-    by no more than 1.5 times the tolerance where that height is below the tolerance.
+    Corners stay nodes and long straight edges stay straight; all other joints share their tangent, save
+    where a bend finer than the sampling is left as its chord. The fit keeps within the tolerance of every
+    vertex, and between vertices of the smooth curve that they suggest: it stands off the polyline by no
+    more than the tolerance beyond the chord's own height, and by no more than 1.5 times the tolerance
+    where that height is below the tolerance. This is checked at four places of every edge.
 
     Args:
         coords: shape (n, 2), mm: vertices on smooth curves and corners between, line after line.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import re
 import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -113,9 +114,9 @@ def _put(node: Any, override: Override, empty: Any) -> None:
         node = _step(node, path[: depth + 1], part, copy.deepcopy(empty))
     last = path[-1]
     if isinstance(node, list):
-        node[_index(node, path)] = override.value
+        node[_index(node, path)] = copy.deepcopy(override.value)
     elif isinstance(node, dict):
-        node[str(last)] = override.value
+        node[str(last)] = copy.deepcopy(override.value)
     else:
         raise _Astray(path[:-1], f"{shown(node)}, expected a table")
 
@@ -137,7 +138,7 @@ def _step(node: Any, path: Path, part: str | int, empty: Any) -> Any:
 
 def _index(node: list[Any], path: Path) -> int:
     part = path[-1]
-    index = part if isinstance(part, int) else int(part) if part.isdecimal() else -1
+    index = part if isinstance(part, int) else int(part) if re.fullmatch("[0-9]{1,9}", part) else -1
     if not 0 <= index < len(node):
         numbers = (
             f"expected 0 to {len(node) - 1}" if len(node) > 1 else "expected 0" if node else "it is empty"

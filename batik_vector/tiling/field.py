@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 from batik_vector.artwork import Artwork, Cell, Geometries, Layer
 from batik_vector.errors import TooLargeError
 from batik_vector.geometry.regions import oriented
-from batik_vector.tiling.torus import Lattice, Window, clip_areas, clip_lines, polygons_of, wrap
+from batik_vector.tiling.torus import Lattice, Window, clip_areas, clip_lines, wrap
+from batik_vector.tiling.weld import welded
 from batik_vector.units import STEPS_PER_MM, to_steps
 
 MAX_VERTICES = 50_000_000
@@ -115,15 +116,10 @@ def _welded(areas: Geometries, names: NDArray[np.intp], cell: Cell) -> tuple[Geo
     edge = np.flatnonzero(_on_seam(areas, cell))
     if len(edge) < 2:
         return areas, names
-    merged, _ = polygons_of(
-        np.array([shapely.union_all(areas[edge], grid_size=1.0)], dtype=object), np.zeros(1, np.intp)
-    )
-    point, host = shapely.STRtree(merged).query(shapely.point_on_surface(areas[edge]), predicate="intersects")
-    first = np.full(len(merged), len(edge) - 1, np.intp)
-    np.minimum.at(first, host, point)
+    joined, first = welded(areas[edge])
     alone = np.ones(len(areas), bool)
     alone[edge] = False
-    return np.concatenate([areas[alone], merged]), np.concatenate([names[alone], names[edge][first]])
+    return np.concatenate([areas[alone], joined]), np.concatenate([names[alone], names[edge][first]])
 
 
 def _joined(lines: Geometries, names: NDArray[np.intp], cell: Cell) -> tuple[Geometries, NDArray[np.intp]]:

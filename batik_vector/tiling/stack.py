@@ -29,6 +29,7 @@ from batik_vector.tiling.torus import (
     translate,
     wrap,
 )
+from batik_vector.tiling.weld import welded
 from batik_vector.units import STEPS_PER_MM
 
 PHASES = 6
@@ -120,14 +121,14 @@ def _assemble_on(
             if above and len(strokes.geometries):
                 # A line ends where its body, and not its centre, meets the gap.
                 shapes = [_cutting_shape(upper, tolerance, sheet.ink.width / 2) for upper in above]
-                bodies, _ = _welded(torus.areas(np.concatenate(shapes), 0).geometries)
+                bodies, _ = welded(torus.areas(np.concatenate(shapes), 0).geometries)
                 strokes = _cut_lines(strokes, bodies)
             areas[sheet.ink.name].extend(_cut(drawn, cutters))
             lines[sheet.ink.name].extend(strokes)
         if sheet.gap is not None:
             above.append(sheet)
             shape = torus.areas(_cutting_shape(sheet, tolerance, 0.0), 0).geometries
-            cutters, _ = _welded(np.concatenate([cutters, shape]))
+            cutters, _ = welded(np.concatenate([cutters, shape]))
     names = [sheet.name for sheet in sheets]
     layers = []
     for ink in inks:
@@ -207,41 +208,6 @@ def _cutting_shape(sheet: Sheet, tolerance: float, extra: float) -> Geometries:
     return np.concatenate(parts) if parts else _none()
 
 
-def _welded(areas: Geometries) -> tuple[Geometries, NDArray[np.intp]]:
-    """Join the areas that meet; return them with the index of the first area that each is made of."""
-    origin = np.arange(len(areas))
-    meeting = np.unique(_meeting(areas))
-    # Joining moves crossings onto the grid, and may push an edge over a neighbour that it only came
-    # near to; then these two are joined as well.
-    while len(meeting):
-        areas, first = _joined(areas, meeting)
-        origin = origin[first]
-        pairs = _meeting(areas)
-        over = shapely.relate_pattern(areas[pairs[:, 0]], areas[pairs[:, 1]], "T********")
-        meeting = np.unique(pairs[over])
-    return areas, origin
-
-
-def _meeting(areas: Geometries) -> NDArray[np.intp]:
-    """Return the pairs of areas that have a point in common, shape (n, 2)."""
-    if len(areas) < 2:
-        return np.empty((0, 2), np.intp)
-    a, b = shapely.STRtree(areas).query(areas, predicate="intersects")
-    return np.asarray(np.column_stack([a, b])[a < b])
-
-
-def _joined(areas: Geometries, some: NDArray[np.intp]) -> tuple[Geometries, NDArray[np.intp]]:
-    """Return the areas with some of them united, and the index of the first area in each."""
-    union = np.array([shapely.union_all(areas[some], grid_size=1.0)], dtype=object)
-    united, _ = polygons_of(union, np.zeros(1, np.intp))
-    point, host = shapely.STRtree(united).query(shapely.point_on_surface(areas[some]), predicate="intersects")
-    first = np.full(len(united), len(some) - 1, np.intp)
-    np.minimum.at(first, host, point)
-    alone = np.ones(len(areas), bool)
-    alone[some] = False
-    return np.concatenate([areas[alone], united]), np.concatenate([np.flatnonzero(alone), some[first]])
-
-
 def _cutters_of(marks: Geometries, cutters: Geometries) -> tuple[NDArray[np.intp], Geometries]:
     """Return which marks are touched by cutters (which do not overlap), and for each those that touch it."""
     mark, cutter = shapely.STRtree(cutters).query(marks, predicate="intersects")
@@ -293,8 +259,8 @@ def _merge(marks: _Marks, overlap: Overlap) -> _Marks:
         _, first = np.unique(shapely.to_wkb(shapely.normalize(areas)), return_index=True)
         first.sort()
         return _Marks(areas[first], marks.names[first])
-    welded, first = _welded(areas)
-    return _Marks(welded, marks.names[first])
+    joined, first = welded(areas)
+    return _Marks(joined, marks.names[first])
 
 
 def _layer(ink: Ink, areas: _Marks, lines: tuple[Geometries, NDArray[np.intp]], names: list[str]) -> Layer:

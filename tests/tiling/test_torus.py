@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from batik_vector.tiling.once import drawn_once
 from batik_vector.tiling.seams import joined, rolled, symmetric_difference
 from batik_vector.tiling.torus import Window, clip_areas, clip_lines, split_at, to_step_grid, wrap
+from batik_vector.tiling.weld import components, welded
 
 WINDOW = Window(0, 0, 1000, 700)
 GRID = ((1000, 0), (0, 700))
@@ -126,3 +127,25 @@ def covered(rows: np.ndarray) -> set[int]:
 def test_interval_sets_behave_as_sets(a: np.ndarray, b: np.ndarray, shift: int) -> None:
     assert covered(symmetric_difference(a, b)) == covered(a) ^ covered(b)
     assert covered(rolled(a, shift, 100)) == {(step + shift) % 100 for step in covered(a)}
+
+
+@given(st.integers(1, 40), st.lists(st.tuples(st.integers(0, 39), st.integers(0, 39)), max_size=60))
+def test_components_are_those_of_a_flood(count: int, links: list[tuple[int, int]]) -> None:
+    pairs = np.array([(a % count, b % count) for a, b in links], np.intp).reshape(-1, 2)
+    expected = list(range(count))
+    for _ in range(count):
+        for a, b in pairs.tolist():
+            expected[a] = expected[b] = min(expected[a], expected[b])
+    assert components(count, pairs).tolist() == expected
+
+
+def test_only_areas_that_share_more_than_points_are_welded() -> None:
+    squares = array(
+        shapely.box(0, 0, 10, 10),
+        shapely.box(10, 10, 20, 20),
+        shapely.box(5, 0, 15, 5),
+        shapely.box(50, 0, 60, 9),
+    )
+    joined, first = welded(squares)
+    assert sorted(shapely.area(joined).tolist()) == [90, 100, 125]
+    assert sorted(first.tolist()) == [0, 0, 3]
