@@ -12,7 +12,7 @@ WORKERS := -n auto --maxprocesses 8
 export PYTHON
 unexport PYTHONPATH PYTHONHOME VIRTUAL_ENV
 
-.PHONY: help demo test test-clients lint format bench golden setup clean
+.PHONY: help demo test test-clients lint format bench golden docs setup clean
 
 help: ## list these verbs
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' $(firstword $(MAKEFILE_LIST)) | expand -t 22
@@ -40,6 +40,9 @@ bench: $(READY) ## a million vertices to SVG, PDF and DXF: seconds, bytes, memor
 
 golden: $(READY) ## draw the samples' pictures and the gallery again
 	$(PY) tools/golden.py
+
+docs: $(READY) ## write docs/recipe.md from the program
+	$(PY) tools/reference.py
 
 setup: $(READY) ## set up without doing anything else
 

@@ -120,7 +120,7 @@ def blame(key: str) -> Iterator[None]:
         yield
     except RecipeError as error:
         raise RecipeError(
-            [Fault(f.message, f"{key}.{f.key}" if f.key else key, f.source, f.line) for f in error.faults]
+            [Fault(f.message, ".".join(filter(None, (key, f.key))), f.source, f.line) for f in error.faults]
         ) from error
     except GeometryError as error:
         raise RecipeError([Fault(str(error), key)]) from error

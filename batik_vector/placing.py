@@ -16,7 +16,7 @@ from batik_vector.geometry.maps.affine import Affine
 from batik_vector.geometry.sampling import Array, Points
 from batik_vector.model import Placement, Recipe
 from batik_vector.motif import Element, Figure, Motif, Treatment, draw
-from batik_vector.tiling.layouts import Bend, Layout
+from batik_vector.tiling.layouts import Bend
 from batik_vector.tiling.stack import Sheet, quad_segs
 from batik_vector.units import GRID_MM
 
@@ -52,33 +52,36 @@ def place(placement: Placement, recipe: Recipe, unit: Cell, inks: Mapping[str, I
         GeometryError, RecipeError: in the words of what cannot be drawn.
     """
     motif = _known(recipe.motif, placement.motif, "motif")
-    layout = placement.layout
-    with blame("layout"):
-        rough_images = layout.images((1.0, 1.0))
     rough = draw(motif, COARSE)
-    scale = placement.scale or _scale(placement, layout, rough, rough_images)
-    cell = (unit.width / scale, unit.height / scale)
     with blame("layout"):
-        images = layout.images(cell)
+        images = placement.layout.images((1.0, 1.0))
+        _refuse_past(limit, rough, images)
+        scale = placement.scale or _scale(placement, rough, images)
+        images = placement.layout.images((unit.width / scale, unit.height / scale))
+        _refuse_past(limit, rough, images, COARSE * scale / recipe.tolerance)
+        tolerance = max(recipe.tolerance - GRID_SHARE, recipe.tolerance / 2) / scale
+        figures = _set_out(motif, images, tolerance)
+    if placement.width and placement.layout.spreads:
+        # Measured again on the fine drawing: the coarse one is a little narrower.
+        scale = placement.width / _extent(figures)
+    at = placement.at or (unit.width / 2, unit.height / 2)
+    on_cloth = Affine.translation(at) @ Affine.turn(placement.turn) @ Affine.scale(scale)
+    sheets = [
+        sheet for figure in figures for sheet in _sheets(figure, placement, inks, on_cloth, recipe.tolerance)
+    ]
+    marks = np.concatenate([part for sheet in sheets for part in (sheet.areas, sheet.lines)])
+    return Placed(sheets, int(shapely.get_num_coordinates(marks).sum()))
+
+
+def _refuse_past(limit: int, rough: list[Figure], images: list[Affine] | Bend, finer: float = 1.0) -> None:
+    """Raise where a drawing ``finer`` times as fine as the rough one would pass the limit."""
     count = images.system.image_count() if isinstance(images, Bend) else len(images)
-    vertices = _estimate(rough, count, COARSE * scale / recipe.tolerance)
+    vertices = _estimate(rough, count, finer)
     if vertices > limit:
         raise TooLargeError(
             f"about {_human(vertices)} vertices, past the limit of {limit:,}: lower the level or the counts, "
             "allow a larger tolerance, or raise the recipe's limit"
         )
-    tolerance = max(recipe.tolerance - GRID_SHARE, recipe.tolerance / 2) / scale
-    figures = _set_out(motif, images, tolerance)
-    if placement.width and layout.spreads:
-        scale *= placement.width / (_extent(figures) * scale)
-    at = placement.at or (unit.width / 2, unit.height / 2)
-    on_cloth = Affine.translation(at) @ Affine.turn(placement.turn) @ Affine.scale(scale)
-    sheets = []
-    for figure in figures:
-        with blame(f"motif.{placement.motif}.{figure.element.name}") if figure.element.name else blame(""):
-            sheets += _sheets(figure, placement, inks, on_cloth, recipe.tolerance)
-    total = sum(int(shapely.get_num_coordinates(np.concatenate([s.areas, s.lines])).sum()) for s in sheets)
-    return Placed(sheets, total)
 
 
 def _known(catalogue: Mapping[str, Motif], name: str, what: str) -> Motif:
@@ -87,10 +90,10 @@ def _known(catalogue: Mapping[str, Motif], name: str, what: str) -> Motif:
     return catalogue[name]
 
 
-def _scale(placement: Placement, layout: Layout, rough: list[Figure], images: list[Affine] | Bend) -> float:
+def _scale(placement: Placement, rough: list[Figure], images: list[Affine] | Bend) -> float:
     if placement.width is None:
         raise RecipeError("a placement needs a width or a scale")
-    if not layout.spreads:
+    if not placement.layout.spreads:
         return placement.width / _extent(rough)
     if isinstance(images, Bend):
         return placement.width / _extent(_bent(rough, images, COARSE))

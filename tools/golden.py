@@ -22,6 +22,7 @@ from PIL import Image, ImageChops
 
 from batik_vector import Artwork, Recipe, compile_recipe, load_recipe
 from batik_vector.export import PngOptions, render
+from batik_vector.outputs import PngOutput
 from batik_vector.tiling.field import repeated
 from batik_vector.units import format_mm
 
@@ -56,7 +57,8 @@ class Sample:
 
     def picture(self) -> bytes:
         """Return its picture as a PNG file."""
-        field = repeated(self.artwork, *repeats(self.artwork.cell.width / self.artwork.cell.height))
+        own = next((each.repeat for each in self.recipe.output if isinstance(each, PngOutput)), None)
+        field = repeated(self.artwork, *own or repeats(self.artwork.cell.width / self.artwork.cell.height))
         width, height = field.cell.width, field.cell.height
         per_mm = min(WIDTH / width, HEIGHT / height)
         drawn = Image.open(io.BytesIO(render(field, "png", PngOptions(dpi=FINER * per_mm * 25.4))))
@@ -75,15 +77,15 @@ class Sample:
             [
                 f"## {recipe.title}",
                 f"![{recipe.title}]({name}.png)",
-                *leading_comment(recipe.source),
+                *(words for words in leading_comment(recipe.source) if words != recipe.title),
                 f"[{name}.toml]({name}.toml): {facts}.",
             ]
         )
 
 
 def samples() -> list[Path]:
-    """Return the recipes of the samples' folder in order."""
-    return sorted(SAMPLES.glob("*.toml"))
+    """Return the recipes of the samples' folder: our own designs, then the paper's figures."""
+    return sorted(SAMPLES.glob("*.toml"), key=lambda path: (path.stem.startswith("figure-"), path.stem))
 
 
 def sample(path: Path) -> Sample:
@@ -111,7 +113,10 @@ def leading_comment(text: str) -> list[str]:
 
 def gallery(found: list[Sample]) -> str:
     """Return the page that shows all samples."""
-    head = "# Samples\n\nEach picture shows several repeats. `make golden` draws them and writes this page."
+    head = (
+        "# Samples\n\nEach picture shows several repeats of the tile, those of the paper's figures one. "
+        "`make golden` draws them\nand writes this page."
+    )
     return "\n\n".join([head, *(each.caption() for each in found)]) + "\n"
 
 

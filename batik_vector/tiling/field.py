@@ -16,11 +16,10 @@ from numpy.typing import NDArray
 from batik_vector.artwork import Artwork, Cell, Geometries, Layer
 from batik_vector.errors import TooLargeError
 from batik_vector.geometry.regions import oriented
+from batik_vector.tiling.stack import MAX_VERTICES
 from batik_vector.tiling.torus import Lattice, Window, clip_areas, clip_lines, wrap
 from batik_vector.tiling.weld import welded
 from batik_vector.units import STEPS_PER_MM, to_steps
-
-MAX_VERTICES = 50_000_000
 
 
 def repeated(artwork: Artwork, across: int, up: int) -> Artwork:

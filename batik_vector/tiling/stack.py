@@ -15,7 +15,7 @@ import shapely
 from numpy.typing import NDArray
 
 from batik_vector.artwork import Cell, Geometries, Ink, Layer, Overlap
-from batik_vector.errors import SeamError
+from batik_vector.errors import SeamError, TooLargeError
 from batik_vector.geometry.regions import oriented
 from batik_vector.tiling import seams
 from batik_vector.tiling.once import drawn_once
@@ -31,6 +31,9 @@ from batik_vector.tiling.torus import (
 )
 from batik_vector.tiling.weld import welded
 from batik_vector.units import STEPS_PER_MM
+
+MAX_VERTICES = 50_000_000
+"""Vertices past which the work is refused before it is begun."""
 
 PHASES = 6
 """How many positions of the seam are tried before a tile is given up."""
@@ -95,14 +98,31 @@ def assemble(
         tolerance: in mm, for the round corners of gaps.
 
     Raises:
+        TooLargeError: with the estimate, where the marks reach over too many repeats.
         SeamError: where opposite edges disagree however the seam is placed.
     """
+    _refuse_too_many(sheets, cell, lattice)
     for phase in range(PHASES):
         torus = _Torus(cell, lattice, np.array([PHASE_STEP], np.int64) * phase)
         layers = _assemble_on(torus, sheets, inks, tolerance)
         if layers is not None:
             return layers
     raise SeamError(f"opposite edges of the tile disagree at {PHASES} positions of the seam")
+
+
+def _refuse_too_many(sheets: Sequence[Sheet], cell: Cell, lattice: Lattice) -> None:
+    (ax, ay), (bx, by) = lattice
+    per_mm2 = STEPS_PER_MM**2 / (ax * by - ay * bx)
+    total = 0.0
+    for marks in (part for sheet in sheets for part in (sheet.areas, sheet.lines) if len(part)):
+        low_x, low_y, high_x, high_y = shapely.bounds(marks).T
+        repeats = (high_x - low_x + cell.width) * (high_y - low_y + cell.height) * per_mm2
+        total += float((repeats * shapely.get_num_coordinates(marks)).sum())
+    if total > MAX_VERTICES:
+        raise TooLargeError(
+            f"the marks reach over so many repeats that they have about {total:,.0f} vertices: "
+            "expected a larger tile or smaller marks"
+        )
 
 
 def _assemble_on(

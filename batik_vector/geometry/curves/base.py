@@ -11,7 +11,6 @@ import numpy as np
 from batik_vector.fields import check
 from batik_vector.geometry.sampling import REFINE_SHARE, Array, Indices, Points, refine, thin
 
-
 LEAST_CORNERS = 6
 """Vertices that a ring keeps however coarse the tolerance."""
 
