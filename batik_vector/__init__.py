@@ -33,9 +33,14 @@ if TYPE_CHECKING:
     from batik_vector.errors import UnknownNameError as UnknownNameError
     from batik_vector.errors import UnsupportedByFormatError as UnsupportedByFormatError
     from batik_vector.export import write_artwork as write_artwork
+    from batik_vector.model import ClothSpec as ClothSpec
     from batik_vector.model import InkSpec as InkSpec
     from batik_vector.model import Placement as Placement
     from batik_vector.model import Recipe as Recipe
+    from batik_vector.model import TileSpec as TileSpec
+    from batik_vector.motif import Element as Element
+    from batik_vector.motif import Flower as Flower
+    from batik_vector.motif import Rosette as Rosette
     from batik_vector.recipe import load_recipe as load_recipe
     from batik_vector.recipe import read_recipe as read_recipe
 
@@ -55,7 +60,8 @@ _HOMES = {
         "UnsupportedByFormatError",
     ),
     "batik_vector.export": ("write_artwork",),
-    "batik_vector.model": ("InkSpec", "Placement", "Recipe"),
+    "batik_vector.model": ("ClothSpec", "InkSpec", "Placement", "Recipe", "TileSpec"),
+    "batik_vector.motif": ("Element", "Flower", "Rosette"),
     "batik_vector.recipe": ("load_recipe", "read_recipe"),
 }
 _HOME = {name: home for home, names in _HOMES.items() for name in names}
