@@ -19,8 +19,8 @@ from batik_vector.errors import GeometryError, unknown_name
 from batik_vector.fields import Between, Length, OneOf, Says, check, choice
 from batik_vector.geometry.curves import CURVES, Circle, Curve, Hypocycloid, Petal, Rose, Superellipse, trace
 from batik_vector.geometry.maps.affine import Affine
-from batik_vector.geometry.regions import FillRule, Geometries, oriented, settle
-from batik_vector.geometry.sampling import Array, Points
+from batik_vector.geometry.regions import FillRule, oriented, settle
+from batik_vector.geometry.sampling import Array, Geometries, Points
 
 
 class Treatment(enum.StrEnum):

@@ -55,11 +55,13 @@ def place(placement: Placement, recipe: Recipe, unit: Cell, inks: Mapping[str, I
     rough = draw(motif, COARSE)
     with blame("layout"):
         images = placement.layout.images((1.0, 1.0))
-        _refuse_past(limit, rough, images)
+    _refuse_past(limit, rough, images)
+    with blame("layout"):
         scale = placement.scale or _scale(placement, rough, images)
         images = placement.layout.images((unit.width / scale, unit.height / scale))
-        _refuse_past(limit, rough, images, COARSE * scale / recipe.tolerance)
-        tolerance = max(recipe.tolerance - GRID_SHARE, recipe.tolerance / 2) / scale
+    _refuse_past(limit, rough, images, COARSE * scale / recipe.tolerance)
+    tolerance = max(recipe.tolerance - GRID_SHARE, recipe.tolerance / 2) / scale
+    with blame("layout"):
         figures = _set_out(motif, images, tolerance)
     if placement.width and placement.layout.spreads:
         # Measured again on the fine drawing: the coarse one is a little narrower.

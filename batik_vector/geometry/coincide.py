@@ -8,8 +8,8 @@ from dataclasses import astuple
 import numpy as np
 import shapely
 
-from batik_vector.geometry.maps.affine import SIMILAR, Affine, Geometries
-from batik_vector.geometry.sampling import Array, Indices
+from batik_vector.geometry.maps.affine import SIMILAR, Affine
+from batik_vector.geometry.sampling import Array, Geometries, Indices
 
 
 def distinct(

@@ -18,9 +18,9 @@ from batik_vector import fields
 from batik_vector.errors import GeometryError, TooLargeError
 from batik_vector.fields import Between, Says
 from batik_vector.geometry.coincide import distinct, drawn_once
-from batik_vector.geometry.maps.affine import SIMILAR, Affine, Geometries
+from batik_vector.geometry.maps.affine import SIMILAR, Affine
 from batik_vector.geometry.maps.flame import STRETCH_CAP, FlameMap, Images, Tolerance
-from batik_vector.geometry.sampling import REFINE_SHARE, Array, Indices, Points
+from batik_vector.geometry.sampling import REFINE_SHARE, Array, Geometries, Indices, Points
 
 __all__ = ["MAX_COPIES", "MAX_PATHS", "Ifs", "distinct"]
 

@@ -7,11 +7,8 @@ from collections.abc import Sequence
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
 
-from batik_vector.geometry.sampling import Indices, Points
-
-Geometries = NDArray[np.object_]
+from batik_vector.geometry.sampling import Geometries, Indices, Points
 
 
 class FillRule(enum.StrEnum):

@@ -25,6 +25,8 @@ Array: TypeAlias = NDArray[np.float64]
 Points: TypeAlias = NDArray[np.float64]
 """Shape (n, 2), y up."""
 Indices: TypeAlias = NDArray[np.intp]
+Geometries: TypeAlias = NDArray[np.object_]
+"""Shape (n,): shapely geometries."""
 
 REFINE_SHARE = 1 / 48
 """Share of the tolerance spent on the dense polyline: it then has √48 ≈ 7 vertices for each one kept, so

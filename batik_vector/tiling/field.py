@@ -17,7 +17,7 @@ from batik_vector.artwork import Artwork, Cell, Geometries, Layer
 from batik_vector.errors import TooLargeError
 from batik_vector.geometry.regions import oriented
 from batik_vector.tiling.stack import MAX_VERTICES
-from batik_vector.tiling.torus import Lattice, Window, clip_areas, clip_lines, wrap
+from batik_vector.tiling.torus import Lattice, Window, clip_areas, clip_lines, to_mm, wrap
 from batik_vector.tiling.weld import welded
 from batik_vector.units import STEPS_PER_MM, to_steps
 
@@ -66,8 +66,8 @@ def _layer(layer: Layer, cell: Cell, window: Window) -> Layer:
     lines, line_codes = clip_lines(lines, line_codes, window)
     return Layer(
         layer.ink,
-        _in_mm(oriented(areas)) if len(areas) else areas,
-        _in_mm(lines),
+        to_mm(oriented(areas)) if len(areas) else areas,
+        to_mm(lines),
         tuple(area_names[area_codes].tolist()),
         tuple(line_names[line_codes].tolist()),
     )
@@ -78,14 +78,6 @@ def _spread(
 ) -> tuple[Geometries, NDArray[np.intp]]:
     steps = shapely.transform(marks, lambda xy: np.rint(xy * STEPS_PER_MM)) if len(marks) else marks
     return wrap(np.asarray(steps, dtype=object), names, lattice, window)
-
-
-def _in_mm(marks: Geometries) -> Geometries:
-    return (
-        np.asarray(shapely.transform(marks, lambda xy: xy / STEPS_PER_MM), dtype=object)
-        if len(marks)
-        else marks
-    )
 
 
 def _on_seam(marks: Geometries, cell: Cell) -> NDArray[np.bool_]:

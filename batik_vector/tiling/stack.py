@@ -7,7 +7,7 @@ round the cell, cut at its edges and, where its ink says so, welded.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -24,13 +24,18 @@ from batik_vector.tiling.torus import (
     Window,
     clip_areas,
     clip_lines,
+    lines_of,
     polygons_of,
+    to_mm,
     to_step_grid,
     translate,
     wrap,
 )
 from batik_vector.tiling.weld import welded
 from batik_vector.units import STEPS_PER_MM
+
+Pieces = Callable[[Geometries, NDArray[np.intp]], tuple[Geometries, NDArray[np.intp]]]
+"""Takes geometries apart: (geometries, names) → (simple parts, their names)."""
 
 MAX_VERTICES = 50_000_000
 """Vertices past which the work is refused before it is begun."""
@@ -142,8 +147,8 @@ def _assemble_on(
                 # A line ends where its body, and not its centre, meets the gap.
                 shapes = [_cutting_shape(upper, tolerance, sheet.ink.width / 2) for upper in above]
                 bodies, _ = welded(torus.areas(np.concatenate(shapes), 0).geometries)
-                strokes = _cut_lines(strokes, bodies)
-            areas[sheet.ink.name].extend(_cut(drawn, cutters))
+                strokes = _cut(strokes, bodies, lines_of)
+            areas[sheet.ink.name].extend(_cut(drawn, cutters, polygons_of))
             lines[sheet.ink.name].extend(strokes)
         if sheet.gap is not None:
             above.append(sheet)
@@ -238,35 +243,19 @@ def _cutters_of(marks: Geometries, cutters: Geometries) -> tuple[NDArray[np.intp
     return rows, np.asarray(shapely.multipolygons(cutters[cutter[order]], indices=number), dtype=object)
 
 
-def _cut(marks: _Marks, cutters: Geometries) -> _Marks:
+def _cut(marks: _Marks, cutters: Geometries, pieces_of: Pieces) -> _Marks:
+    """Cut marks by cutters that do not overlap; ``pieces_of`` takes apart what is left of each."""
     if not len(marks.geometries) or not len(cutters):
         return marks
     rows, away = _cutters_of(marks.geometries, cutters)
     if not len(rows):
         return marks
     left = shapely.difference(marks.geometries[rows], away, grid_size=1.0)
+    pieces, names = pieces_of(left, marks.names[rows])
     whole = np.ones(len(marks.geometries), bool)
     whole[rows] = False
-    pieces, names = polygons_of(left, marks.names[rows])
     return _Marks(
         np.concatenate([marks.geometries[whole], pieces]), np.concatenate([marks.names[whole], names])
-    )
-
-
-def _cut_lines(marks: _Marks, cutters: Geometries) -> _Marks:
-    if not len(marks.geometries) or not len(cutters):
-        return marks
-    rows, away = _cutters_of(marks.geometries, cutters)
-    if not len(rows):
-        return marks
-    left = shapely.difference(marks.geometries[rows], away, grid_size=1.0)
-    parts, owner = shapely.get_parts(shapely.line_merge(left), return_index=True)
-    good = shapely.length(parts) > 0
-    whole = np.ones(len(marks.geometries), bool)
-    whole[rows] = False
-    return _Marks(
-        np.concatenate([marks.geometries[whole], parts[good]]),
-        np.concatenate([marks.names[whole], marks.names[rows][owner[good]]]),
     )
 
 
@@ -285,19 +274,11 @@ def _merge(marks: _Marks, overlap: Overlap) -> _Marks:
 
 def _layer(ink: Ink, areas: _Marks, lines: tuple[Geometries, NDArray[np.intp]], names: list[str]) -> Layer:
     """Return a layer in mm from marks in grid steps."""
-
-    def in_mm(marks: Geometries) -> Geometries:
-        return (
-            np.asarray(shapely.transform(marks, lambda xy: xy / STEPS_PER_MM), dtype=object)
-            if len(marks)
-            else marks
-        )
-
     polygons = oriented(areas.geometries) if len(areas.geometries) else areas.geometries
     return Layer(
         ink,
-        in_mm(polygons),
-        in_mm(lines[0]),
+        to_mm(polygons),
+        to_mm(lines[0]),
         tuple(names[i] for i in areas.names),
         tuple(names[i] for i in lines[1]),
     )

@@ -69,6 +69,20 @@ def polygons_of(marks: Geometries, names: NDArray[np.intp]) -> tuple[Geometries,
     return parts[good], names[owner[good]]
 
 
+def lines_of(marks: Geometries, names: NDArray[np.intp]) -> tuple[Geometries, NDArray[np.intp]]:
+    """Return the polylines among the parts of geometries, joined end to end within each, with their names."""
+    parts, owner = shapely.get_parts(shapely.line_merge(marks), return_index=True)
+    good = shapely.length(parts) > 0
+    return parts[good], names[owner[good]]
+
+
+def to_mm(marks: Geometries) -> Geometries:
+    """Return marks given in grid steps in mm: the place of k steps is the float k / 1000."""
+    if not len(marks):
+        return marks
+    return np.asarray(shapely.transform(marks, lambda xy: xy / STEPS_PER_MM), dtype=object)
+
+
 def wrap(
     marks: Geometries, names: NDArray[np.intp], lattice: Lattice, window: Window, reach: float = 0.0
 ) -> tuple[Geometries, NDArray[np.intp]]:

@@ -7,7 +7,7 @@ from functools import partial
 
 import numpy as np
 import shapely
-from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import HealthCheck, Phase, assume, given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
@@ -23,6 +23,8 @@ many = settings(
     max_examples=1000,
     deadline=None,
     derandomize=True,
+    # A recipe that fails is small enough to be read as it is; making it smaller takes minutes.
+    phases=[Phase.explicit, Phase.reuse, Phase.generate],
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large],
 )
 
@@ -78,7 +80,11 @@ def cuts(recipe: Recipe) -> bool:
 
 
 def assert_line_ends_meet(layer: Layer, cell: Cell) -> None:
-    """As many lines leave by an edge as come in by the opposite one, at the same places."""
+    """Lines leave by an edge where others come in by the opposite one.
+
+    Places and not their numbers are compared: two lines may share the stretch next to the seam on one
+    side, where it is drawn once.
+    """
     (_, slip_y), (slip_x, _) = cell.lattice
     size = round(cell.width * 1000), round(cell.height * 1000)
     for axis, slip in ((0, slip_y), (1, slip_x)):
@@ -94,9 +100,7 @@ def assert_line_ends_meet(layer: Layer, cell: Cell) -> None:
         there = [round(p[1 - axis] * 1000) for p in ends if round(p[axis] * 1000) == size[axis]]
         inner = size[1 - axis]
         edge = {0, inner, slip % inner}
-        assert sorted((y + slip) % inner for y in here if (y + slip) % inner not in edge) == sorted(
-            y % inner for y in there if y % inner not in edge
-        )
+        assert {(y + slip) % inner for y in here} - edge == {y % inner for y in there} - edge
 
 
 def rolled(field: Artwork, cell: Cell, offset: tuple[float, float]) -> list[NDArray[np.object_]]:
@@ -154,5 +158,6 @@ def test_moving_every_placement_moves_the_drawing_and_nothing_else(recipe: Recip
     )
     first, second = compiled(straight), compiled(moved)
     for a, b in zip(first.layers, second.layers, strict=True):
-        perimeter = float(shapely.length(a.areas).sum())
-        assert abs(shapely.area(a.areas).sum() - shapely.area(b.areas).sum()) <= 0.002 * perimeter + 1e-6
+        # Every edge may be rounded by a step or two, also those of marks that were cut away.
+        rounding = 0.004 * float(shapely.length(a.areas).sum()) + 1e-4 * first.cell.width * first.cell.height
+        assert abs(shapely.area(a.areas).sum() - shapely.area(b.areas).sum()) <= rounding

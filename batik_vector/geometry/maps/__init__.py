@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from batik_vector.geometry.maps.affine import Affine, Complexes, Geometries
+from batik_vector.geometry.maps.affine import Affine, Complexes
 from batik_vector.geometry.maps.base import Variation
 from batik_vector.geometry.maps.bent import Bent
 from batik_vector.geometry.maps.flame import FlameMap, Images
@@ -11,6 +11,7 @@ from batik_vector.geometry.maps.linear import Linear
 from batik_vector.geometry.maps.sinusoidal import Sinusoidal
 from batik_vector.geometry.maps.spherical import Spherical
 from batik_vector.geometry.maps.swirl import Swirl
+from batik_vector.geometry.sampling import Geometries
 
 VARIATIONS: dict[str, type[Variation]] = {
     "linear": Linear,

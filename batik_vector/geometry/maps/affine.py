@@ -11,10 +11,8 @@ import shapely
 from numpy.typing import NDArray
 
 from batik_vector.errors import GeometryError
-from batik_vector.geometry.sampling import Points
+from batik_vector.geometry.sampling import Geometries, Points
 
-Geometries: TypeAlias = NDArray[np.object_]
-"""Shape (n,): shapely geometries."""
 Complexes: TypeAlias = NDArray[np.complex128]
 """Points as x + iy, shape (n,)."""
 

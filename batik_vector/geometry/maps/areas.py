@@ -10,7 +10,7 @@ import shapely
 from numpy.typing import NDArray
 
 from batik_vector.errors import TornRingError
-from batik_vector.geometry.maps.affine import Complexes, Geometries
+from batik_vector.geometry.maps.affine import Complexes
 from batik_vector.geometry.maps.chains import Angles, Chains, prepare, unwrap
 from batik_vector.geometry.maps.flame import NO_IMAGES, FlameMap, Images, Tolerance, core_tolerance
 from batik_vector.geometry.maps.settle import (
@@ -21,7 +21,7 @@ from batik_vector.geometry.maps.settle import (
 )
 from batik_vector.geometry.maps.thinning import ever_finer
 from batik_vector.geometry.maps.trace import Traced, trace_images
-from batik_vector.geometry.sampling import Indices, Points
+from batik_vector.geometry.sampling import Geometries, Indices, Points
 
 
 def area_images(flame: FlameMap, polygons: Geometries, tolerance: Tolerance) -> Images:

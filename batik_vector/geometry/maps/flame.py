@@ -12,9 +12,9 @@ import numpy as np
 import shapely
 
 from batik_vector.errors import GeometryError
-from batik_vector.geometry.maps.affine import IDENTITY, Affine, Complexes, Geometries
+from batik_vector.geometry.maps.affine import IDENTITY, Affine, Complexes
 from batik_vector.geometry.maps.base import Variation
-from batik_vector.geometry.sampling import Array, Indices, Points
+from batik_vector.geometry.sampling import Array, Geometries, Indices, Points
 
 STRETCH_CAP = 1e6
 """Where a map is infinitely steep (the origin of JuliaN with P2 < P1) a finite number must do. Curves

@@ -6,11 +6,10 @@ import numpy as np
 import shapely
 
 from batik_vector.errors import TooLargeError
-from batik_vector.geometry.maps.affine import Geometries
 from batik_vector.geometry.maps.areas import regions
 from batik_vector.geometry.maps.flame import FlameMap, Images, Tolerance
 from batik_vector.geometry.maps.settle import chains_of, parts_of, points_of, thin_polygons
-from batik_vector.geometry.sampling import REFINE_SHARE, Array, Indices
+from batik_vector.geometry.sampling import REFINE_SHARE, Array, Geometries, Indices
 
 MAX_CELLS = 1_000_000
 """Pieces into which folds may cut the regions of one call."""

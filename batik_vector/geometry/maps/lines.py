@@ -8,12 +8,12 @@ import numpy as np
 import shapely
 
 from batik_vector.errors import TornRingError
-from batik_vector.geometry.maps.affine import Complexes, Geometries
+from batik_vector.geometry.maps.affine import Complexes
 from batik_vector.geometry.maps.chains import Angles, Chains, prepare, unwrap
 from batik_vector.geometry.maps.flame import NO_IMAGES, FlameMap, Images, Tolerance, core_tolerance
 from batik_vector.geometry.maps.settle import chains_of, points_of
 from batik_vector.geometry.maps.trace import trace_images
-from batik_vector.geometry.sampling import Indices
+from batik_vector.geometry.sampling import Geometries, Indices
 
 
 def line_images(flame: FlameMap, lines: Geometries, tolerance: Tolerance) -> Images:

@@ -6,10 +6,10 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from batik_vector.geometry.maps.affine import Complexes, Geometries
+from batik_vector.geometry.maps.affine import Complexes
 from batik_vector.geometry.maps.chains import Chains
 from batik_vector.geometry.maps.thinning import ever_finer
-from batik_vector.geometry.sampling import Array, Indices, Points
+from batik_vector.geometry.sampling import Array, Geometries, Indices, Points
 
 
 def chains_of(geometries: Geometries) -> tuple[Chains, NDArray[np.bool_]]:
