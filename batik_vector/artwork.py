@@ -5,8 +5,8 @@ An :class:`Artwork` is a page of ink layers. What holds for each of them, and ne
 * coordinates are millimetres on cloth, y upwards, the cell's lower left corner at (0, 0);
 * every coordinate is finite and lies on the 1 µm grid (it is the float ``k / 1000``);
 * areas are valid, non-empty polygons, outer rings anticlockwise, holes clockwise;
-* lines are simple polylines of at least two distinct points, no step of length zero; a closed line
-  repeats its first point at its end;
+* lines are polylines of at least two distinct points, no step of length zero; a closed line repeats its
+  first point at its end;
 * nothing lies outside the cell grown by ``bleed``;
 * nothing is drawn twice: no two areas of a layer overlap unless its ink says ``overlay``, and no two
   lines of a layer share a stretch;
@@ -116,7 +116,7 @@ def _no_geometry() -> Geometries:
     return np.empty(0, dtype=object)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Layer:
     """All marks of one ink: filled polygons and centre lines, each with the name of its element.
 
@@ -146,12 +146,14 @@ class Provenance:
     version: str = ""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Artwork:
     """A page of ink layers on cloth, in the normal form that the head of this module states.
 
     ``tolerance`` (mm) is how far any drawn edge may stand from the true curve. ``bleed`` (mm) is how
-    far the geometry reaches beyond the cell on every side.
+    far the geometry reaches beyond the cell on every side. ``borders`` are the stretches of the seam along
+    which a mark's own border runs, so that it has no twin on the opposite edge: (ink, axis, from, to), the
+    last two in grid steps along the left edge (axis 0) or the lower one (axis 1).
     """
 
     title: str
@@ -161,6 +163,7 @@ class Artwork:
     tolerance: float = 0.02
     bleed: float = 0.0
     provenance: Provenance = Provenance()
+    borders: frozenset[tuple[str, int, int, int]] = frozenset()
 
     @property
     def vertex_count(self) -> int:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-import numpy as np
+import shapely
 
 from batik_vector._version import __version__
 from batik_vector.artwork import Artwork, Ink, Provenance, violations
@@ -19,6 +19,7 @@ from batik_vector.placing import place
 from batik_vector.tiling import seams
 from batik_vector.tiling.stack import assemble
 from batik_vector.tiling.torus import to_step_grid
+from batik_vector.units import STEPS_PER_MM
 
 Progress = Callable[[str], None]
 
@@ -48,7 +49,7 @@ def compile_recipe(recipe: Recipe, *, progress: Progress | None = None) -> Artwo
     tell("cutting the tile")
     cell = recipe.tile.cell()
     with blame("tile"):
-        layers = assemble(sheets, list(inks.values()), cell, unit.lattice, recipe.tolerance)
+        layers, borders = assemble(sheets, list(inks.values()), cell, unit.lattice, recipe.tolerance)
     if not layers:
         raise RecipeError("nothing is left to draw: every mark is covered or cut away")
     return Artwork(
@@ -57,6 +58,7 @@ def compile_recipe(recipe: Recipe, *, progress: Progress | None = None) -> Artwo
         layers=layers,
         cloth=recipe.cloth.colour,
         tolerance=recipe.tolerance,
+        borders=borders,
         provenance=Provenance(recipe.source, recipe.seed, __version__),
     )
 
@@ -67,11 +69,15 @@ def inspect(artwork: Artwork) -> dict[str, Any]:
     ``violations`` lists breaks of the normal form; ``seam`` the stretches, in mm, that one edge covers
     and its opposite does not. An artwork is sound when both are empty.
     """
+    cell_area = artwork.cell.width * artwork.cell.height
     breaks = []
     for layer in artwork.layers:
-        for axis, low, high in seams.mismatch(to_step_grid(layer.areas), artwork.cell):
+        for axis, low, high in seams.mismatch(to_step_grid(layer.areas), artwork.cell).tolist():
+            if (layer.ink.name, axis, low, high) in artwork.borders:
+                continue
             side = "left and right" if axis == 0 else "lower and upper"
-            breaks.append({"ink": layer.ink.name, "edges": side, "from_mm": low / 1000, "to_mm": high / 1000})
+            ends = {"from_mm": low / STEPS_PER_MM, "to_mm": high / STEPS_PER_MM}
+            breaks.append({"ink": layer.ink.name, "edges": side, **ends})
     return {
         "title": artwork.title,
         "cell_mm": [artwork.cell.width, artwork.cell.height],
@@ -83,10 +89,7 @@ def inspect(artwork: Artwork) -> dict[str, Any]:
                 "colour": layer.ink.colour,
                 "areas": len(layer.areas),
                 "lines": len(layer.lines),
-                "covers": round(
-                    float(np.sum([a.area for a in layer.areas])) / (artwork.cell.width * artwork.cell.height),
-                    6,
-                ),
+                "covers": round(float(shapely.area(layer.areas).sum()) / cell_area, 6),
             }
             for layer in artwork.layers
         ],

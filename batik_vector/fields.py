@@ -12,6 +12,7 @@ import enum
 import functools
 import math
 import re
+import types
 import typing
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
@@ -161,29 +162,40 @@ def _with_tuples(value: Any) -> Any:
 
 
 @functools.cache
-def _bounded(cls: type) -> tuple[tuple[str, Between], ...]:
+def _hints(cls: type) -> dict[str, Any]:
     hints = typing.get_type_hints(cls, include_extras=True)
-    found = []
-    for field in dataclasses.fields(cls):
-        for mark in getattr(hints[field.name], "__metadata__", ()):
-            if isinstance(mark, Between):
-                found.append((field.name, mark))
-    return tuple(found)
+    return {field.name: hints[field.name] for field in dataclasses.fields(cls)}
 
 
 def check(value: Any) -> None:
-    """Raise where a dataclass instance holds a number outside its bounds.
+    """Raise where a dataclass instance holds a number outside its bounds, in a field or in a list of them.
 
     Raises:
         GeometryError: naming the field, its value and the bounds.
     """
     cls: type = type(value)
-    for name, bounds in _bounded(cls):
-        number = getattr(value, name)
-        if number is None:
-            continue
-        if not math.isfinite(number) or not bounds.low <= number <= bounds.high:
+    for name, hint in _hints(cls).items():
+        for number, bounds in _outside(hint, getattr(value, name)):
             raise GeometryError(f"{name} = {number}, expected {bounds.low:g} to {bounds.high:g}")
+
+
+def _outside(hint: Any, value: Any) -> Iterator[tuple[Any, Between]]:
+    """Yield the numbers in a value that lie outside the bounds of its type, and these bounds."""
+    if value is None:
+        return
+    for mark in getattr(hint, "__metadata__", ()):
+        if isinstance(mark, Between) and not (math.isfinite(value) and mark.low <= value <= mark.high):
+            yield value, mark
+    bare = hint.__origin__ if hasattr(hint, "__metadata__") else hint
+    args = typing.get_args(bare)
+    if typing.get_origin(bare) is tuple and isinstance(value, tuple | list):
+        each = [args[0]] * len(value) if args[-1] is Ellipsis else args
+        for one, part in zip(each, value, strict=False):
+            yield from _outside(one, part)
+    elif typing.get_origin(bare) in (typing.Union, types.UnionType):
+        for one in args:
+            if one is not type(None):
+                yield from _outside(one, value)
 
 
 Choice = TypeVar("Choice", bound=enum.StrEnum)

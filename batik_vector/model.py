@@ -60,7 +60,7 @@ class Placement:
 
     motif: Annotated[str, Says("name of the motif")]
     layout: Annotated[AnyLayout, Says("how copies are set out")] = field(default_factory=Single)
-    width: Annotated[Side | None, Says("breadth of all copies together on cloth")] = None
+    width: Annotated[Side | None, Says("breadth of all copies together, before they are turned")] = None
     scale: Annotated[Annotated[Length, Between(1e-3, MAX_SIDE_MM)] | None, Says("mm to one motif unit")] = (
         None
     )

@@ -18,6 +18,7 @@ import shapely
 from batik_vector.errors import GeometryError, unknown_name
 from batik_vector.fields import Between, Length, OneOf, Says, check, choice
 from batik_vector.geometry.curves import CURVES, Circle, Curve, Hypocycloid, Petal, Rose, Superellipse, trace
+from batik_vector.geometry.ifs import distinct
 from batik_vector.geometry.maps.affine import Affine
 from batik_vector.geometry.regions import FillRule, oriented, settle
 from batik_vector.geometry.sampling import Array, Geometries, Points
@@ -206,7 +207,7 @@ class Flower:
         if len(set(self.order)) < len(self.order):
             raise GeometryError("an element stands twice in the order")
         if not self.parts():
-            raise GeometryError("the flower has no elements: every count is 0")
+            raise GeometryError("the flower has no elements: its order is empty, or every count is 0")
 
     def parts(self) -> tuple[Element, ...]:
         """Return the elements that are drawn, bottom first."""
@@ -281,6 +282,8 @@ def _draw(element: Element, tolerance: float | Callable[[Points], Array]) -> Fig
     if traced.rings:
         region = settle(traced.rings, element.fill)
         areas = _bands([Affine.scale(k).apply(region) for k in scales])
+    reach = float(np.min(everywhere(shapely.get_coordinates(lines)))) if callable(tolerance) else tolerance
+    copies = distinct(copies, [np.concatenate([areas, lines])], reach)
     return Figure(
         element,
         np.concatenate([copy.apply(areas) for copy in copies]) if len(areas) else areas,

@@ -180,19 +180,27 @@ def _sheets(
         gap = 0.0
     if element.treatment == Treatment.AREA:
         return [Sheet(name, ink, areas, gap=gap, whole=element.whole)]
-    half = ink.width / 2
+    pen = _ink(element, element.line_ink, inks) if element.line_ink else ink
+    half = pen.width / 2
+    # A line's body reaches beyond the area it goes round, and hides what lies under it too.
+    hidden = _grown(areas, half, tolerance) if gap is not None else areas[:0]
     if element.treatment == Treatment.BOTH:
-        pen = _ink(element, element.line_ink, inks) if element.line_ink else ink
+        over = 0.0 if pen is not ink and pen.overlap == Overlap.KNOCKOUT else None
         return [
-            Sheet(name, ink, areas, gap=gap, whole=element.whole),
-            Sheet(f"{name}.line", pen, lines=lines),
+            Sheet(name, ink, areas, gap=gap, cutter=hidden, whole=element.whole, margin=half),
+            Sheet(f"{name}.line", pen, lines=lines, gap=over, whole=element.whole),
         ]
-    segments = quad_segs(half, tolerance)
-    whole = shapely.buffer(areas, half, quad_segs=segments) if gap is not None and len(areas) else areas[:0]
     if element.treatment == Treatment.LINE:
-        return [Sheet(name, ink, lines=lines, gap=gap, cutter=whole)]
-    body: Geometries = np.asarray(shapely.buffer(lines, half, quad_segs=segments), dtype=object)
-    return [Sheet(name, ink, body, gap=gap, cutter=np.concatenate([body, whole]), whole=element.whole)]
+        return [Sheet(name, ink, lines=lines, gap=gap, cutter=hidden, whole=element.whole)]
+    body = _grown(lines, half, tolerance)
+    return [Sheet(name, ink, body, gap=gap, cutter=np.concatenate([body, hidden]), whole=element.whole)]
+
+
+def _grown(marks: Geometries, reach: float, tolerance: float) -> Geometries:
+    """Return marks grown by ``reach`` (mm), round at ends and corners."""
+    if not len(marks):
+        return marks
+    return np.asarray(shapely.buffer(marks, reach, quad_segs=quad_segs(reach, tolerance)), dtype=object)
 
 
 def _ink(element: Element, name: str, inks: Mapping[str, Ink]) -> Ink:

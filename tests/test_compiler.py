@@ -9,12 +9,12 @@ from numpy.typing import NDArray
 
 from batik_vector import read_recipe
 from batik_vector.artwork import Artwork, Overlap, violations
-from batik_vector.compiler import compile_recipe
+from batik_vector.compiler import compile_recipe, inspect
 from batik_vector.errors import RecipeError
-from batik_vector.geometry.curves import Circle, Petal, Polygon
+from batik_vector.geometry.curves import Circle, Petal, Polygon, Superellipse
 from batik_vector.model import InkSpec, Placement, Recipe
 from batik_vector.motif import Element, Flower, Rosette, Treatment
-from batik_vector.tiling.cells import TileSpec
+from batik_vector.tiling.cells import Cut, TileSpec
 from batik_vector.tiling.field import repeated, with_bleed
 from batik_vector.tiling.layouts import Julian, Lattice, Layout, Ring, Single
 
@@ -173,7 +173,7 @@ def test_the_field_is_whole_and_welded() -> None:
     recipe = Recipe(
         motif={"m": Rosette(elements=(Element(curve=Circle(1.0)),))},
         place=(Placement(motif="m", scale=10.0, at=(0.0, 0.0)),),
-        tile=TileSpec(size=(50.0, 40.0), repeat="half-drop", cut="unit"),  # type: ignore[arg-type]
+        tile=TileSpec(size=(50.0, 40.0), repeat="half-drop", cut=Cut.UNIT),
         ink=WAX,
     )
     tile = compile_recipe(recipe)
@@ -211,3 +211,100 @@ def test_work_past_the_limit_is_refused_with_its_estimate() -> None:
     """
     with pytest.raises(RecipeError, match=r"place\[0\].*about [\d,]+ vertices, past the limit of 5,000"):
         compile_recipe(read_recipe(text))
+
+
+def test_a_leaf_whose_tip_lies_on_the_seam_keeps_its_area() -> None:
+    leaves = Element(curve=Superellipse(0.2, 20, 1.2, 0.3), count=4)
+    for at in [(43.04230356637408, 16.578780845709165), (30.0, 30.0)]:
+        artwork = compile_recipe(
+            Recipe(
+                motif={"m": Rosette(elements=(leaves,))},
+                place=(Placement(motif="m", scale=20.0, at=at),),
+                tile=TileSpec(size=(60.0, 60.0)),
+                ink=WAX,
+            )
+        )
+        assert shapely.area(artwork.layers[0].areas).sum() == pytest.approx(637, abs=2)
+
+
+def test_marks_that_keep_whole_go_with_their_outline() -> None:
+    dot = Element(curve=Circle(1.0), count=8, radius=4.0, name="dot", treatment=Treatment.BOTH, whole=True)
+    cover = Element(curve=Circle(1.2), radius=4.0, treatment=Treatment.CUT)
+    artwork = laid_out(Single(), dot, width=100.0)
+    covered = compile_recipe(
+        Recipe(
+            motif={"m": Rosette(elements=(dot, cover))},
+            place=(Placement(motif="m", scale=10.0),),
+            tile=ROOMY,
+            ink=WAX,
+        )
+    )
+    assert (len(artwork.layers[0].areas), len(artwork.layers[0].lines)) == (8, 8)
+    assert (len(covered.layers[0].areas), len(covered.layers[0].lines)) == (7, 7)
+
+
+def test_the_line_of_both_leaves_the_gap_bare() -> None:
+    under = Element(curve=Circle(2.0), name="under", ink="low")
+    over = Element(curve=Circle(1.0), ink="high", line_ink="pen", treatment=Treatment.BOTH, gap=1.0)
+    artwork = compile_recipe(
+        Recipe(
+            motif={"m": Rosette(elements=(under, over))},
+            place=(Placement(motif="m", scale=30.0),),
+            tile=ROOMY,
+            ink={"low": InkSpec(), "high": InkSpec(), "pen": InkSpec(width=2.0)},
+        )
+    )
+    by_name = {layer.ink.name: layer for layer in artwork.layers}
+    bare = shapely.distance(shapely.union_all(by_name["low"].areas), shapely.union_all(by_name["pen"].lines))
+    assert bare == pytest.approx(2.0, abs=0.03)
+
+
+def test_copies_of_an_element_that_coincide_are_drawn_once() -> None:
+    ring = laid_out(Single(), Element(curve=Circle(1.0), count=5, treatment=Treatment.LINE), width=100.0)
+    assert len(ring.layers[0].lines) == 1
+
+
+def test_marks_of_an_overlay_stay_apart_across_the_seam() -> None:
+    discs = Rosette(
+        elements=(
+            Element(curve=Circle(1.0), name="x"),
+            Element(curve=Circle(1.0), radius=0.8, turn=90, name="y"),
+        )
+    )
+    tile = compile_recipe(
+        Recipe(
+            motif={"m": discs},
+            place=(Placement(motif="m", scale=5.0, at=(0.0, 10.0)),),
+            tile=TileSpec(size=(20.0, 20.0)),
+            ink={"wax": InkSpec(overlap=Overlap.OVERLAY)},
+        )
+    )
+    field = repeated(tile, 2, 1).layers[0]
+    whole = [name for name, area in zip(field.area_names, field.areas, strict=True) if area.area > 78]
+    assert sorted(whole) == ["m.x", "m.y"]
+
+
+def test_a_border_that_lies_on_the_seam_is_no_fault() -> None:
+    square = Recipe(
+        motif={"m": Rosette(elements=(Element(curve=Polygon(sides=4, radius=np.sqrt(2.0)), turn=45),))},
+        place=(Placement(motif="m", scale=10.0, at=(10.0, 20.0)),),
+        tile=TileSpec(size=(40.0, 40.0)),
+        ink=WAX,
+    )
+    artwork = compile_recipe(square)
+    assert len(artwork.borders) == 1
+    assert inspect(artwork)["seam"] == []
+
+
+def test_a_field_keeps_what_is_left_of_the_drop() -> None:
+    tile = compile_recipe(
+        Recipe(
+            motif={"m": Rosette(elements=(Element(curve=Circle(1.0)),))},
+            place=(Placement(motif="m", scale=10.0, at=(0.0, 13.0)),),
+            tile=TileSpec(size=(50.0, 40.0), repeat="half-drop", cut=Cut.UNIT),
+            ink=WAX,
+        )
+    )
+    for across, up in [(1, 1), (3, 1), (2, 2), (3, 2)]:
+        field = repeated(tile, across, up)
+        assert inspect(field)["seam"] == []

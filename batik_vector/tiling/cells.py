@@ -10,7 +10,7 @@ from typing import Annotated
 
 from batik_vector.artwork import Cell, DropAxis
 from batik_vector.errors import GeometryError
-from batik_vector.fields import Between, Length, Says, Text, choice
+from batik_vector.fields import Between, Length, Says, Text, check, choice
 from batik_vector.units import to_steps
 
 _DROP = re.compile(r"^(drop|brick)\s+(\d{1,3})\s*/\s*(\d{1,3})$")
@@ -53,6 +53,7 @@ class TileSpec:
     cut: Annotated[Cut, Says("the rectangle that repeats straight, or one unit")] = Cut.RECTANGLE
 
     def __post_init__(self) -> None:
+        check(self)
         parse_repeat(self.repeat)
         object.__setattr__(self, "cut", choice(Cut, self.cut, "cut"))
 

@@ -13,22 +13,24 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from batik_vector.artwork import Artwork, Cell, Geometries, Layer
+from batik_vector.artwork import Artwork, Cell, DropAxis, Geometries, Layer, Overlap
 from batik_vector.errors import TooLargeError
 from batik_vector.geometry.regions import oriented
+from batik_vector.tiling.once import drawn_once
 from batik_vector.tiling.stack import MAX_VERTICES
 from batik_vector.tiling.torus import Lattice, Window, clip_areas, clip_lines, to_mm, wrap
-from batik_vector.tiling.weld import welded
+from batik_vector.tiling.weld import meeting, united, welded
 from batik_vector.units import STEPS_PER_MM, to_steps
 
 
 def repeated(artwork: Artwork, across: int, up: int) -> Artwork:
     """Return an artwork of ``across`` × ``up`` tiles in one cell, their marks whole and welded.
 
-    A tile that repeats with a drop fills the larger cell with its drop kept inside; the result repeats
-    straight only where the counts allow it.
+    The cell of a tile that repeats with a drop is larger by the counts and drops by what is left of it.
     """
-    cell = Cell(artwork.cell.columns * across, artwork.cell.rows * up)
+    tile = artwork.cell
+    along, other = (across, up) if tile.axis == DropAxis.COLUMN else (up, across)
+    cell = Cell(tile.columns * across, tile.rows * up, (tile.drop * along) % 1 / other, tile.axis)
     return _field(artwork, cell, 0)
 
 
@@ -37,19 +39,13 @@ def with_bleed(artwork: Artwork, bleed: float) -> Artwork:
     return replace(_field(artwork, artwork.cell, to_steps(bleed)), bleed=to_steps(bleed) / STEPS_PER_MM)
 
 
-def window_of(artwork: Artwork, left: float, bottom: float, width: float, height: float) -> tuple[Layer, ...]:
-    """Return what of the infinite field lies in a window (mm), in coordinates of the field."""
-    low_x, low_y = to_steps(left), to_steps(bottom)
-    return _layers(artwork, Window(low_x, low_y, low_x + to_steps(width), low_y + to_steps(height)))
-
-
 def _field(artwork: Artwork, cell: Cell, bleed: int) -> Artwork:
     tiles = (cell.columns + 2 * bleed) * (cell.rows + 2 * bleed) / (artwork.cell.columns * artwork.cell.rows)
     if tiles * artwork.vertex_count > MAX_VERTICES:
         count = int(tiles * artwork.vertex_count)
         raise TooLargeError(f"the field would have about {count:,} vertices: ask for fewer repeats")
     window = Window(-bleed, -bleed, cell.columns + bleed, cell.rows + bleed)
-    return replace(artwork, cell=cell, layers=_layers(artwork, window))
+    return replace(artwork, cell=cell, layers=_layers(artwork, window), borders=frozenset())
 
 
 def _layers(artwork: Artwork, window: Window) -> tuple[Layer, ...]:
@@ -60,10 +56,12 @@ def _layer(layer: Layer, cell: Cell, window: Window) -> Layer:
     # By name and not by mark: the two halves of a line that a seam cut are two marks of one name.
     area_names, area_codes = np.unique(np.array(layer.area_names, dtype=str), return_inverse=True)
     line_names, line_codes = np.unique(np.array(layer.line_names, dtype=str), return_inverse=True)
-    areas, area_codes = _welded(*_spread(layer.areas, area_codes, cell.lattice, window), cell)
+    whole = layer.ink.overlap != Overlap.OVERLAY
+    areas, area_codes = _welded(*_spread(layer.areas, area_codes, cell.lattice, window), cell, whole)
     areas, area_codes = clip_areas(areas, area_codes, window)
     lines, line_codes = _joined(*_spread(layer.lines, line_codes, cell.lattice, window), cell)
-    lines, line_codes = clip_lines(lines, line_codes, window)
+    # Cutting elsewhere may bring lines together that ran a hair apart.
+    lines, line_codes = drawn_once(*clip_lines(lines, line_codes, window))
     return Layer(
         layer.ink,
         to_mm(oriented(areas)) if len(areas) else areas,
@@ -100,17 +98,33 @@ def _on_seam(marks: Geometries, cell: Cell) -> NDArray[np.bool_]:
     )
 
 
-def _welded(areas: Geometries, names: NDArray[np.intp], cell: Cell) -> tuple[Geometries, NDArray[np.intp]]:
-    """Join areas that a seam divided: those that share a stretch of border, not a point."""
+def _welded(
+    areas: Geometries, names: NDArray[np.intp], cell: Cell, whole: bool
+) -> tuple[Geometries, NDArray[np.intp]]:
+    """Join areas that a seam divided: all that meet there, or the halves of one mark only.
+
+    Areas of an ink that is not ``whole`` may lie over one another, and stay the marks they are.
+    """
     if len(areas) < 2:
         return areas, names
     edge = np.flatnonzero(_on_seam(areas, cell))
     if len(edge) < 2:
         return areas, names
-    joined, first = welded(areas[edge])
+    joined, first = welded(areas[edge]) if whole else united(areas[edge], _halves(areas[edge], names[edge]))
     alone = np.ones(len(areas), bool)
     alone[edge] = False
     return np.concatenate([areas[alone], joined]), np.concatenate([names[alone], names[edge][first]])
+
+
+def _halves(areas: Geometries, names: NDArray[np.intp]) -> NDArray[np.intp]:
+    """Return the pairs that are one mark cut by a seam: what they share ends in vertices of both."""
+    pairs = meeting(areas)
+    a, b = pairs.T
+    pairs = pairs[(names[a] == names[b]) & shapely.relate_pattern(areas[a], areas[b], "F***1****")]
+    a, b = pairs.T
+    ends = shapely.boundary(shapely.line_merge(shapely.intersection(areas[a], areas[b])))
+    corners = shapely.extract_unique_points(areas)
+    return np.asarray(pairs[shapely.covers(corners[a], ends) & shapely.covers(corners[b], ends)])
 
 
 def _joined(lines: Geometries, names: NDArray[np.intp], cell: Cell) -> tuple[Geometries, NDArray[np.intp]]:

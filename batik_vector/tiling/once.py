@@ -37,7 +37,7 @@ def drawn_once(lines: Geometries, names: NDArray[np.intp]) -> tuple[Geometries, 
     chained[1:] = (group[1:] == group[:-1]) & (low[order][1:] < reach[:-1])
     if not chained.any():
         return lines, names
-    return _rejoined(lines, names, owner, order, chained, (low, high, ends))
+    return _rejoined(lines, names, owner, order, chained, (high, ends))
 
 
 def _on_lines(
@@ -64,9 +64,9 @@ def _rejoined(
     owner: NDArray[np.intp],
     order: NDArray[np.intp],
     chained: NDArray[np.bool_],
-    where: tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]],
+    where: tuple[NDArray[np.int64], NDArray[np.int64]],
 ) -> tuple[Geometries, NDArray[np.intp]]:
-    low, high, ends = where
+    high, ends = where
     chain = np.cumsum(~chained) - 1
     sizes = np.bincount(chain)
     touched = np.zeros(len(lines), bool)
@@ -75,15 +75,17 @@ def _rejoined(
     number = chain[part]
     members = order[part]
     _, first = np.unique(number, return_index=True)
-    groups = np.split(members, first[1:])
-    begins = np.array([ends[g[np.argmin(low[g])], :2] for g in groups])
-    stops = np.array([ends[g[np.argmax(high[g])], 2:] for g in groups])
-    names_of = np.array([names[owner[g]].min() for g in groups])
+    begins = ends[members[first], :2]
+    highest = members[np.lexsort([high[members], number])]
+    stops = ends[highest[np.append(first[1:], len(members)) - 1], 2:]
+    names_of = np.minimum.reduceat(names[owner[members]], first)
     kept, kept_names = [lines[~touched]], [names[~touched]]
     for name in np.unique(names_of):
         mine = names_of == name
-        strokes = [shapely.LineString(ends) for ends in np.stack([begins[mine], stops[mine]], axis=1)]
-        joined = shapely.get_parts(shapely.line_merge(shapely.MultiLineString(strokes)))
+        strokes = shapely.linestrings(np.stack([begins[mine], stops[mine]], axis=1).astype(float))
+        joined = shapely.get_parts(
+            shapely.line_merge(shapely.multilinestrings(np.asarray(strokes, dtype=object)))
+        )
         kept.append(joined)
         kept_names.append(np.full(len(joined), name, np.intp))
     return np.concatenate(kept), np.concatenate(kept_names)

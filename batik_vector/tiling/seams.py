@@ -41,17 +41,6 @@ def joined(intervals: Intervals) -> Intervals:
     return np.column_stack([intervals[new, 0], reach[last]])
 
 
-def line_ends(lines: Geometries, axis: int, value: int) -> Steps:
-    """Return the places, ascending, where the ends of lines stand on x = value or y = value."""
-    if not len(lines):
-        return np.empty(0, np.int64)
-    open_ = lines[~shapely.is_closed(lines)]
-    ends = shapely.get_coordinates(
-        np.concatenate([shapely.get_point(open_, 0), shapely.get_point(open_, -1)])
-    )
-    return np.sort(ends[ends[:, axis] == value, 1 - axis].astype(np.int64))
-
-
 def opposite_edges(cell: Cell) -> list[tuple[int, int, int, int]]:
     """Return the pairs of edges that must agree: (axis, value, opposite value, shift along the edge).
 
@@ -123,12 +112,14 @@ def mended(areas: Geometries, cell: Cell) -> Geometries:
             if high - low > MEND_STEPS:
                 continue
             of_here = [p for p in (low, high) if p in here]
+            # Moves along the far edge, without wrapping: a corner stays at its own end.
+            to_far = (low + shift) % length - low
             of_there = [p for p in (low, high) if p in there]
             if len(of_there) == 1:
                 target = low + high - of_there[0]
-                moves = [((of_there[0] + shift) % length, (target + shift) % length, far)]
+                moves = [(of_there[0] + to_far, target + to_far, far)]
             elif of_there:
-                moves = [((high + shift) % length, (low + shift) % length, far)]
+                moves = [(high + to_far, low + to_far, far)]
             else:
                 moves = [(high, low, near)] if len(of_here) == 2 else []
             for old, new, value in moves:

@@ -34,6 +34,7 @@ from batik_vector.tiling.torus import (
 from batik_vector.tiling.weld import welded
 from batik_vector.units import STEPS_PER_MM
 
+Borders = frozenset[tuple[str, int, int, int]]
 Pieces = Callable[[Geometries, NDArray[np.intp]], tuple[Geometries, NDArray[np.intp]]]
 """Takes geometries apart: (geometries, names) → (simple parts, their names)."""
 
@@ -58,7 +59,8 @@ class Sheet:
     ``ink`` is None for a sheet that only cuts. ``gap`` is how many mm of ground it keeps bare round its
     shape by cutting what lies beneath; None cuts nothing. ``cutter`` is the shape that cuts, where it is
     not the areas drawn (an outlined petal hides what lies under the whole petal). ``whole`` leaves out
-    marks that would be cut, as nobody waxes half a dot.
+    marks that would be cut, as nobody waxes half a dot; ``margin`` (mm) is how far a line drawn round
+    the areas by another sheet reaches beyond them, so that both are kept or left out together.
     """
 
     name: str
@@ -68,6 +70,7 @@ class Sheet:
     gap: float | None = None
     cutter: Geometries = field(default_factory=_none)
     whole: bool = False
+    margin: float = 0.0
 
 
 @dataclass
@@ -91,8 +94,10 @@ def quad_segs(radius: float, tolerance: float) -> int:
 
 def assemble(
     sheets: Sequence[Sheet], inks: Sequence[Ink], cell: Cell, lattice: Lattice, tolerance: float
-) -> tuple[Layer, ...]:
+) -> tuple[tuple[Layer, ...], Borders]:
     """Return the layers of a tile, in the normal form, one for every ink that draws something.
+
+    With them come the borders that run along the seam: see :class:`~batik_vector.artwork.Artwork`.
 
     Args:
         sheets: bottom first, in mm.
@@ -111,7 +116,7 @@ def assemble(
         torus = _Torus(cell, lattice, np.array([PHASE_STEP], np.int64) * phase)
         layers = _assemble_on(torus, sheets, inks, tolerance)
         if layers is not None:
-            return layers
+            return layers, frozenset(torus.borders)
     raise SeamError(f"opposite edges of the tile disagree at {PHASES} positions of the seam")
 
 
@@ -141,8 +146,9 @@ def _assemble_on(
     for number in range(len(sheets) - 1, -1, -1):
         sheet = sheets[number]
         if sheet.ink is not None:
-            drawn = torus.areas(_uncut(sheet, torus, cutters), number)
-            strokes = torus.lines(sheet.lines, number)
+            filled, centre_lines = _uncut(sheet, torus, cutters)
+            drawn = torus.areas(filled, number)
+            strokes = torus.lines(centre_lines, number)
             if above and len(strokes.geometries):
                 # A line ends where its body, and not its centre, meets the gap.
                 shapes = [_cutting_shape(upper, tolerance, sheet.ink.width / 2) for upper in above]
@@ -159,7 +165,7 @@ def _assemble_on(
     for ink in inks:
         merged = _merge(areas[ink.name], ink.overlap)
         merged.geometries = seams.mended(merged.geometries, torus.cell)
-        if not torus.seam_holds(merged.geometries):
+        if not torus.seam_holds(ink.name, merged.geometries):
             return None
         layers.append(
             _layer(ink, merged, drawn_once(lines[ink.name].geometries, lines[ink.name].names), names)
@@ -174,6 +180,7 @@ class _Torus:
         self.cell, self.lattice, self.phase = cell, lattice, phase
         self.window = Window(0, 0, cell.columns, cell.rows)
         self.allowed: list[NDArray[np.int64]] = []
+        self.borders: list[tuple[str, int, int, int]] = []
 
     def areas(self, marks: Geometries, name: int | NDArray[np.intp]) -> _Marks:
         pieces, names = polygons_of(
@@ -191,7 +198,7 @@ class _Torus:
         pieces, names = wrap(pieces, np.full(len(pieces), name, np.intp), self.lattice, self.window)
         return _Marks(*clip_lines(pieces, names, self.window))
 
-    def seam_holds(self, areas: Geometries) -> bool:
+    def seam_holds(self, ink: str, areas: Geometries) -> bool:
         """Whether opposite edges agree, but for borders that were drawn along the seam on purpose."""
         if not shapely.is_valid(areas).all():
             return False
@@ -205,19 +212,39 @@ class _Torus:
             together = seams.joined(np.vstack([mine, legal]))
             if not np.array_equal(together, legal):
                 return False
+        self.borders += [(ink, axis, low, high) for axis, low, high in breaks.tolist()]
         return True
 
 
-def _uncut(sheet: Sheet, torus: _Torus, cutters: Geometries) -> Geometries:
-    """Return a sheet's areas; of one that keeps whole marks only, those that nothing above touches.
+def _uncut(sheet: Sheet, torus: _Torus, cutters: Geometries) -> tuple[Geometries, Geometries]:
+    """Return a sheet's areas and lines; of one that keeps whole marks only, those that nothing above cuts.
 
-    A mark is asked for as a whole, wherever the seam divides it.
+    A mark is asked for as a whole, wherever the seam divides it, and with the body of its line; a closed
+    line stands for what it encloses.
     """
-    if not sheet.whole or not len(cutters) or not len(sheet.areas):
-        return sheet.areas
-    pieces = torus.areas(sheet.areas, np.arange(len(sheet.areas)))
-    touched, _ = shapely.STRtree(cutters).query(pieces.geometries, predicate="intersects")
-    return np.delete(sheet.areas, np.unique(pieces.names[touched]))
+    if not sheet.whole or not len(cutters) or sheet.ink is None:
+        return sheet.areas, sheet.lines
+    areas = shapely.buffer(sheet.areas, sheet.margin) if sheet.margin else sheet.areas
+    shapes = sheet.lines.copy()
+    closed = shapely.is_closed(shapes) & (shapely.get_num_points(shapes) > 3)
+    xy, ring = shapely.get_coordinates(shapes[closed], return_index=True)
+    if closed.any():
+        shapes[closed] = shapely.make_valid(shapely.polygons(shapely.linearrings(xy, indices=ring)))
+    bodies = shapely.buffer(shapes, sheet.ink.width / 2)
+    return (
+        np.delete(sheet.areas, _touched(torus, np.asarray(areas, dtype=object), cutters)),
+        np.delete(sheet.lines, _touched(torus, np.asarray(bodies, dtype=object), cutters)),
+    )
+
+
+def _touched(torus: _Torus, shapes: Geometries, cutters: Geometries) -> NDArray[np.intp]:
+    """Return which shapes (mm) cutters on the torus would cut into."""
+    if not len(shapes):
+        return np.empty(0, np.intp)
+    pieces = torus.areas(shapes, np.arange(len(shapes)))
+    a, b = shapely.STRtree(cutters).query(pieces.geometries, predicate="intersects")
+    cut = shapely.relate_pattern(pieces.geometries[a], cutters[b], "T********")
+    return np.unique(pieces.names[a[cut]])
 
 
 def _cutting_shape(sheet: Sheet, tolerance: float, extra: float) -> Geometries:

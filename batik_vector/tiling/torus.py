@@ -39,10 +39,10 @@ class Window:
 
 
 def to_step_grid(marks: Geometries) -> Geometries:
-    """Return marks given in mm in grid steps: every vertex on the grid, polygons valid, empty ones dropped.
+    """Return marks given in mm in grid steps: every vertex on the grid, polygons valid.
 
     Rounding moves a vertex by half a step at most; the few polygons that this makes invalid are mended
-    by GEOS' precision reducer. A polygon may thereby fall into several.
+    by GEOS' precision reducer. A polygon may thereby fall into several, or become empty.
     """
     if not len(marks):
         return marks
@@ -58,7 +58,7 @@ def to_step_grid(marks: Geometries) -> Geometries:
 def polygons_of(marks: Geometries, names: NDArray[np.intp]) -> tuple[Geometries, NDArray[np.intp]]:
     """Return the polygons among the parts of geometries, with the names of those they come from."""
     parts, owner = shapely.get_parts(marks, return_index=True)
-    deep = shapely.get_type_id(parts) == shapely.GeometryType.GEOMETRYCOLLECTION
+    deep = shapely.get_type_id(parts) >= shapely.GeometryType.MULTIPOINT
     if deep.any():
         inner, inner_owner = shapely.get_parts(parts[deep], return_index=True)
         parts, owner = (
@@ -149,8 +149,15 @@ def clip_areas(
 ) -> tuple[Geometries, NDArray[np.intp]]:
     """Cut polygons (grid steps) to the window; those wholly inside are untouched."""
     inside, crossing = _inside_and_crossing(areas, window)
-    cut = shapely.intersection(_split_polygons(areas[crossing], window), window.box, grid_size=1.0)
-    pieces, piece_names = polygons_of(cut, names[crossing])
+    split, split_names = _split_polygons(areas[crossing], window), names[crossing]
+    # Rounding a crossing may fold a needle over itself, and an overlay of what is invalid may flood the
+    # whole window.
+    folded = ~shapely.is_valid(split)
+    if folded.any():
+        flat, flat_names = polygons_of(shapely.make_valid(split[folded]), split_names[folded])
+        split = np.concatenate([split[~folded], flat])
+        split_names = np.concatenate([split_names[~folded], flat_names])
+    pieces, piece_names = polygons_of(shapely.intersection(split, window.box, grid_size=1.0), split_names)
     return np.concatenate([areas[inside], pieces]), np.concatenate([names[inside], piece_names])
 
 

@@ -8,12 +8,10 @@ from __future__ import annotations
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
 
 from batik_vector.artwork import Geometries
+from batik_vector.geometry.sampling import Indices
 from batik_vector.tiling.torus import polygons_of
-
-Indices = NDArray[np.intp]
 
 
 def welded(areas: Geometries) -> tuple[Geometries, Indices]:
@@ -26,7 +24,7 @@ def welded(areas: Geometries) -> tuple[Geometries, Indices]:
     # Joining moves crossings onto the grid, and may push an edge over a neighbour that it only came
     # near to; then these two are joined as well.
     while len(pairs):
-        areas, first = _united(areas, pairs)
+        areas, first = united(areas, pairs)
         origin = origin[first]
         pairs = meeting(areas)
         pairs = pairs[shapely.relate_pattern(areas[pairs[:, 0]], areas[pairs[:, 1]], "T********")]
@@ -63,7 +61,7 @@ def components(count: int, pairs: Indices) -> Indices:
             return label
 
 
-def _united(areas: Geometries, pairs: Indices) -> tuple[Geometries, Indices]:
+def united(areas: Geometries, pairs: Indices) -> tuple[Geometries, Indices]:
     """Unite every connected group of areas, all groups of one size in one call."""
     label = components(len(areas), pairs)
     order = np.argsort(label, kind="stable")
@@ -72,8 +70,16 @@ def _united(areas: Geometries, pairs: Indices) -> tuple[Geometries, Indices]:
     for size in np.unique(sizes[sizes > 1]):
         mine = sizes == size
         groups = areas[order[start[mine][:, None] + np.arange(size)]]
-        united = np.asarray(shapely.union_all(groups, axis=1, grid_size=1.0), dtype=object)
-        pieces, origin = polygons_of(united, heads[mine])
+        whole = np.asarray(shapely.union_all(groups, axis=1, grid_size=1.0), dtype=object)
+        pieces, row = polygons_of(whole, np.arange(len(whole)))
+        origin = heads[mine][row]
+        # Areas that only touch fall apart again, each under its own name.
+        several = np.flatnonzero(np.bincount(row, minlength=len(whole))[row] > 1)
+        if len(several):
+            members = order[start[mine][row[several]][:, None] + np.arange(size)]
+            holds = shapely.intersects(areas[members], shapely.point_on_surface(pieces[several])[:, None])
+            found = holds.any(axis=1)
+            origin[several[found]] = members[found, holds.argmax(axis=1)[found]]
         parts.append(pieces)
         origins.append(origin)
     return np.concatenate(parts), np.concatenate(origins)

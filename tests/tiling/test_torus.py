@@ -11,7 +11,15 @@ from hypothesis import strategies as st
 
 from batik_vector.tiling.once import drawn_once
 from batik_vector.tiling.seams import joined, rolled, symmetric_difference
-from batik_vector.tiling.torus import Window, clip_areas, clip_lines, split_at, to_step_grid, wrap
+from batik_vector.tiling.torus import (
+    Window,
+    clip_areas,
+    clip_lines,
+    polygons_of,
+    split_at,
+    to_step_grid,
+    wrap,
+)
 from batik_vector.tiling.weld import components, welded
 
 WINDOW = Window(0, 0, 1000, 700)
@@ -148,4 +156,26 @@ def test_only_areas_that_share_more_than_points_are_welded() -> None:
     )
     joined, first = welded(squares)
     assert sorted(shapely.area(joined).tolist()) == [90, 100, 125]
-    assert sorted(first.tolist()) == [0, 0, 3]
+    assert sorted(first.tolist()) == [0, 1, 3]
+
+
+def test_a_needle_that_rounding_folds_does_not_flood_the_window() -> None:
+    # A sliver of the paper's leaf that crosses a corner's lines within a step of one another.
+    rng = np.random.default_rng(11)
+    for _ in range(2000):
+        x, y = rng.integers(-40, 41, 2)
+        tip, side = rng.integers(-60, 61, 2), rng.integers(1, 3)
+        needle = shapely.Polygon([(x - 300, y), tuple(tip), (x - 300, y + side)])
+        if not needle.is_valid or needle.area == 0:
+            continue
+        pieces, _ = clip_areas(array(needle), np.zeros(1, int), WINDOW)
+        assert shapely.area(pieces).sum() <= needle.area + 0.5 * needle.length + 1
+
+
+def test_parts_are_found_however_deep_they_lie() -> None:
+    deep = shapely.GeometryCollection(
+        [shapely.MultiPolygon([shapely.box(0, 0, 1, 1)]), shapely.LineString([(0, 0), (5, 5)])]
+    )
+    parts, names = polygons_of(array(deep), np.array([7]))
+    assert [part.area for part in parts] == [1]
+    assert names.tolist() == [7]

@@ -107,9 +107,11 @@ def _sample(curve: Curve, tolerance: float | Callable[[Points], Array]) -> tuple
         tolerance * (1 - REFINE_SHARE),
         np.isin(t, knots),
     )
-    if curve.closed and keep.sum() <= LEAST_CORNERS:
-        # So small, or the tolerance so coarse, that the ring would be a sliver: it keeps a shape.
-        keep[np.linspace(0, len(t) - 1, LEAST_CORNERS + 1).round().astype(np.intp)] = True
+    for begin, stop in curve.loops():
+        i, j = np.searchsorted(t, [begin - 1e-12, stop - 1e-12])
+        if keep[i : j + 1].sum() <= LEAST_CORNERS:
+            # So small, or the tolerance so coarse, that the ring would be a sliver: it keeps a shape.
+            keep[np.linspace(i, j, LEAST_CORNERS + 1).round().astype(np.intp)] = True
     return t[keep], points[keep]
 
 

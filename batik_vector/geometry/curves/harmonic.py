@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Annotated, TypeAlias
 
@@ -53,7 +54,9 @@ class Polar(Curve):
 
     def at(self, t: Array) -> Points:
         """Return the points at ``t``; t = 0 is in the direction +x."""
-        angle = 2 * np.pi * t
+        # Without a mean radius, waves of odd frequencies draw the curve once in half a turn.
+        odd = self.radius == 0 and all(frequency % 2 for frequency, amplitude, _ in self.waves if amplitude)
+        angle = (np.pi if odd else 2 * np.pi) * t
         radius = self.radius + _sum(self.waves, angle)
         return np.column_stack([radius * np.cos(angle), radius * np.sin(angle)])
 
@@ -73,14 +76,35 @@ class Parametric(Curve):
     y: Annotated[tuple[Wave, ...], Says("waves in y: [frequency, amplitude, phase°]")] = ((1, 1.0, -90.0),)
 
     def __post_init__(self) -> None:
+        check(self)
         if not all(any(f and a for f, a, _ in waves) for waves in (self.x, self.y)):
             raise GeometryError("x and y each need a wave with a frequency and an amplitude")
+        if self._retraces():
+            raise GeometryError("the curve runs back over itself: another phase in x or y opens it")
 
     def at(self, t: Array) -> Points:
         """Return the points at ``t``."""
-        angle = 2 * np.pi * t
+        # Frequencies with a common factor repeat the curve that many times: once is enough.
+        angle = 2 * np.pi / self._common * t
         return np.column_stack([_sum(self.x, angle), _sum(self.y, angle)])
+
+    @property
+    def _common(self) -> int:
+        return math.gcd(
+            *(frequency for frequency, amplitude, _ in (*self.x, *self.y) if frequency and amplitude)
+        )
 
     def breaks(self) -> Array:
         """Starting points dense enough for the fastest wave."""
-        return _pauses(_highest(self.x, self.y))
+        return _pauses(_highest(self.x, self.y) // self._common)
+
+    def _retraces(self) -> bool:
+        """Whether the second half of the curve is the first one drawn backwards."""
+        t = np.arange(1, 64) / 64
+        frequency, _, phase = next(wave for wave in self.x if wave[0] and wave[1])
+        # A curve that turns back does so where every wave stands at an extreme, the first one too.
+        for half in range(2 * frequency):
+            turn = (half / 2 - phase / 360) / frequency * self._common
+            if np.abs(self.at(turn + t / 2) - self.at(turn - t / 2)).max() < 1e-9:
+                return True
+        return False

@@ -23,7 +23,7 @@ class Rose(Curve):
     Tian et al. 2019, Eq. 9; https://mathworld.wolfram.com/RoseCurve.html
     """
 
-    n: Annotated[int, Between(1, 64), Says("petals: n when n·d is odd, 2n when even", "n")] = 2
+    n: Annotated[int, Between(1, 128), Says("petals: n when n·d is odd, 2n when even", "n")] = 2
     d: Annotated[int, Between(1, 64), Says("how often the petals overlap")] = 1
     length: Annotated[float, Between(1e-3, 1e3), Says("length of a petal", "a1")] = 1.0
 
