@@ -215,7 +215,8 @@ def test_work_past_the_limit_is_refused_with_its_estimate() -> None:
 
 def test_a_leaf_whose_tip_lies_on_the_seam_keeps_its_area() -> None:
     leaves = Element(curve=Superellipse(0.2, 20, 1.2, 0.3), count=4)
-    for at in [(43.04230356637408, 16.578780845709165), (30.0, 30.0)]:
+    covered = []
+    for at in [(30.0, 30.0), (43.04230356637408, 16.578780845709165)]:
         artwork = compile_recipe(
             Recipe(
                 motif={"m": Rosette(elements=(leaves,))},
@@ -224,7 +225,8 @@ def test_a_leaf_whose_tip_lies_on_the_seam_keeps_its_area() -> None:
                 ink=WAX,
             )
         )
-        assert shapely.area(artwork.layers[0].areas).sum() == pytest.approx(637, abs=2)
+        covered.append(float(shapely.area(artwork.layers[0].areas).sum()))
+    assert covered[1] == pytest.approx(covered[0], abs=1)
 
 
 def test_marks_that_keep_whole_go_with_their_outline() -> None:

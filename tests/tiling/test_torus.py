@@ -173,9 +173,8 @@ def test_a_needle_that_rounding_folds_does_not_flood_the_window() -> None:
 
 
 def test_parts_are_found_however_deep_they_lie() -> None:
-    deep = shapely.GeometryCollection(
-        [shapely.MultiPolygon([shapely.box(0, 0, 1, 1)]), shapely.LineString([(0, 0), (5, 5)])]
-    )
+    several = shapely.MultiPolygon([shapely.box(0, 0, 1, 1)])
+    deep = shapely.GeometryCollection([several, shapely.LineString([(0, 0), (5, 5)])])
     parts, names = polygons_of(array(deep), np.array([7]))
     assert [part.area for part in parts] == [1]
     assert names.tolist() == [7]
