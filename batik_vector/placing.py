@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import shapely
@@ -140,12 +140,23 @@ def _set_out(motif: Motif, images: list[Affine] | Bend, tolerance: float) -> lis
         def source(points: Points) -> Array:
             return np.asarray(tolerance * SOURCE_SHARE / np.maximum(system.stretch(first.at(points)), 1e-6))
 
-        return _bent(draw(motif, source), images, tolerance * (1 - SOURCE_SHARE))
+        return _bent(_shown(draw(motif, source)), images, tolerance * (1 - SOURCE_SHARE))
     largest = max(image.stretch for image in images)
-    figures = draw(motif, tolerance / largest)
+    figures = _shown(draw(motif, tolerance / largest))
     groups = [np.concatenate([figure.areas, figure.lines]) for figure in figures]
     kept = distinct(images, groups, tolerance)
     return [_copied(figure, kept) for figure in figures]
+
+
+def _shown(figures: list[Figure]) -> list[Figure]:
+    """Leave out the lines of elements that are filled or cut only, before they are carried anywhere."""
+    filled = (Treatment.AREA, Treatment.CUT)
+    return [
+        replace(figure, lines=figure.lines[:0])
+        if figure.element.treatment in filled and len(figure.areas)
+        else figure
+        for figure in figures
+    ]
 
 
 def _copied(figure: Figure, images: list[Affine]) -> Figure:
