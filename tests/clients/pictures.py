@@ -20,6 +20,8 @@ SLACK = 32
 """Levels of 255 by which a colour may leave the range around it: programs round colours."""
 DARK = 160
 """Below this grey a pixel belongs to a line."""
+RIM = 2
+"""Pixels along the page's edges that are not compared."""
 EDGE = 3
 """Pixels along the page's edges where lines are not compared: there half of a line is off the page."""
 
@@ -41,7 +43,9 @@ def reference(svg: bytes, per_mm: float) -> Image.Image:
 def differing(one: Image.Image, other: Image.Image) -> float:
     """Return the share of pixels that do not belong, in whichever picture has more of them."""
     one, other = _common(one, other)
-    return max(float(_strange(one, other).mean()), float(_strange(other, one).mean()))
+    # A page that is no whole number of pixels ends within the last ones, where paper shows through.
+    inside = slice(RIM, -RIM)
+    return max(float(_strange(*pair)[inside, inside].mean()) for pair in ((one, other), (other, one)))
 
 
 def shade_apart(one: Image.Image, other: Image.Image) -> float:
@@ -53,8 +57,7 @@ def shade_apart(one: Image.Image, other: Image.Image) -> float:
 
 def stray(one: Image.Image, other: Image.Image, reach: int = 1) -> float:
     """Return the share of line pixels that stand more than ``reach`` off the other picture's lines."""
-    inside = slice(EDGE, -EDGE)
-    a, b = (np.asarray(each.convert("L"))[inside, inside] < DARK for each in _common(one, other))
+    a, b = (np.asarray(each.convert("L")) < DARK for each in _common(one, other))
     return max(_alone(a, b, reach), _alone(b, a, reach))
 
 
@@ -76,4 +79,5 @@ def _strange(one: Image.Image, other: Image.Image) -> Mask:
 
 def _alone(one: Mask, other: Mask, reach: int) -> float:
     near = np.asarray(Image.fromarray(other).convert("L").filter(ImageFilter.MaxFilter(2 * reach + 1))) > 0
-    return float((one & ~near).sum() / max(one.sum(), 1))
+    inside = slice(EDGE, -EDGE)
+    return float((one & ~near)[inside, inside].sum() / max(one.sum(), 1))
