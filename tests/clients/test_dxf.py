@@ -35,8 +35,7 @@ def test_librecad_draws_the_outlines_in_place_and_true_size(
     left, low, right, high = programs.page_mm(printed)
     # LibreCAD rounds its page down to whole points.
     assert (right - left, high - low) == pytest.approx((drawing.cell.width, drawing.cell.height), abs=0.36)
-    # Its page's rounding moves the drawing by as much: no finer picture can be compared pixel by pixel.
-    scale = min(per_mm(drawing), 1 / 0.36)
+    scale = per_mm(drawing)
     known = reference(outlines(drawing, 1 / scale), scale)
     assert stray(load(programs.poppler(printed, scale)), known) < FEW
 
