@@ -39,7 +39,7 @@ class Overlap(enum.StrEnum):
     WELD = "weld"
     """Marks of the ink merge into one region; other inks beneath stay whole."""
     KNOCKOUT = "knockout"
-    """Marks merge, and every ink beneath is cut away under them."""
+    """Marks merge, and marks of other inks that were placed before them are cut away under them."""
     OVERLAY = "overlay"
     """Marks stay single shapes laid over one another; nothing is merged or cut."""
 

@@ -60,13 +60,16 @@ class Placement:
 
     motif: Annotated[str, Says("name of the motif")]
     layout: Annotated[AnyLayout, Says("how copies are set out")] = field(default_factory=Single)
-    width: Annotated[Side | None, Says("breadth of all copies together, before they are turned")] = None
+    width: Annotated[
+        Side | None,
+        Says("breadth of all copies before they are turned, without bodies of lines; of one in a lattice"),
+    ] = None
     scale: Annotated[Annotated[Length, Between(1e-3, MAX_SIDE_MM)] | None, Says("mm to one motif unit")] = (
         None
     )
-    at: Annotated[Place2D | None, Says("where its centre lies; the middle of the repeat when left out")] = (
-        None
-    )
+    at: Annotated[
+        Place2D | None, Says("where the layout's origin lies; the middle of the repeat when left out")
+    ] = None
     turn: Annotated[float, Between(-360, 360), Says("degrees the whole is turned")] = 0.0
     ink: Annotated[str, Says("ink of the elements that name none; needed where there are several")] = ""
 

@@ -41,6 +41,9 @@ Pieces = Callable[[Geometries, NDArray[np.intp]], tuple[Geometries, NDArray[np.i
 MAX_VERTICES = 50_000_000
 """Vertices past which the work is refused before it is begun."""
 
+MAX_REPEATS = 5_000
+"""Repeats that one mark may reach over: all its translates meet, and welding them costs their square."""
+
 PHASES = 6
 """How many positions of the seam are tried before a tile is given up."""
 
@@ -127,6 +130,11 @@ def _refuse_too_many(sheets: Sequence[Sheet], cell: Cell, lattice: Lattice) -> N
     for marks in (part for sheet in sheets for part in (sheet.areas, sheet.lines) if len(part)):
         low_x, low_y, high_x, high_y = shapely.bounds(marks).T
         repeats = (high_x - low_x + cell.width) * (high_y - low_y + cell.height) * per_mm2
+        if repeats.max() > MAX_REPEATS:
+            raise TooLargeError(
+                f"a mark reaches over about {repeats.max():,.0f} repeats, past {MAX_REPEATS:,}: "
+                "expected a larger tile or smaller marks"
+            )
         total += float((repeats * shapely.get_num_coordinates(marks)).sum())
     if total > MAX_VERTICES:
         raise TooLargeError(

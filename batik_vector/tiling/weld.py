@@ -13,6 +13,10 @@ from batik_vector.artwork import Geometries
 from batik_vector.geometry.sampling import Indices
 from batik_vector.tiling.torus import polygons_of
 
+ROUNDS = 6
+"""How often areas that joining brought together are joined again; two are seldom needed, and dense scribbles
+that never come apart on the grid are left as they are."""
+
 
 def welded(areas: Geometries) -> tuple[Geometries, Indices]:
     """Join the areas that meet; return them with the index of the first area that each is made of.
@@ -23,7 +27,9 @@ def welded(areas: Geometries) -> tuple[Geometries, Indices]:
     pairs = meeting(areas)
     # Joining moves crossings onto the grid, and may push an edge over a neighbour that it only came
     # near to; then these two are joined as well.
-    while len(pairs):
+    for _ in range(ROUNDS):
+        if not len(pairs):
+            break
         areas, first = united(areas, pairs)
         origin = origin[first]
         pairs = meeting(areas)
