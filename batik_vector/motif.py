@@ -8,7 +8,8 @@ of, bottom first, and all that follows (sampling, filling, laying out) is the sa
 from __future__ import annotations
 
 import enum
-from collections.abc import Callable
+import functools
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, fields
 from typing import Annotated, TypeAlias
 
@@ -269,26 +270,60 @@ def draw(motif: Motif, tolerance: float | Callable[[Points], Array]) -> list[Fig
 
 def _draw(element: Element, tolerance: float | Callable[[Points], Array]) -> Figure:
     copies = element.copies()
+    if not callable(tolerance):
+        look = element.curve, element.fill, element.contours, tolerance
+        return Figure(element, *_copied(look, tuple(copies)))
 
     def everywhere(points: Points) -> Array:
-        assert callable(tolerance)
         return np.asarray(np.min([tolerance(copy.at(points)) for copy in copies], axis=0))
 
-    traced = trace(element.curve, everywhere if callable(tolerance) else tolerance)
-    scales = [k / element.contours for k in range(element.contours, 0, -1)]
+    areas, lines = _outlined(element.curve, element.fill, element.contours, everywhere)
+    reach = float(np.min(everywhere(shapely.get_coordinates(lines))))
+    return Figure(element, *_turned(areas, lines, copies, reach))
+
+
+Look: TypeAlias = tuple[Curve, FillRule, int, float]
+"""What a curve's geometry hangs on: the curve, its fill rule, its contours, the tolerance."""
+
+
+@functools.lru_cache(maxsize=128)
+def _copied(look: Look, copies: tuple[Affine, ...]) -> tuple[Geometries, Geometries]:
+    """Return areas and lines of a curve and its copies. Kept: who turns one knob draws the rest again."""
+    areas, lines = _turned(*_alone(look), copies, look[-1])
+    for marks in (areas, lines):
+        marks.flags.writeable = False
+    return areas, lines
+
+
+@functools.lru_cache(maxsize=128)
+def _alone(look: Look) -> tuple[Geometries, Geometries]:
+    return _outlined(*look)
+
+
+def _outlined(
+    curve: Curve, fill: FillRule, contours: int, tolerance: float | Callable[[Points], Array]
+) -> tuple[Geometries, Geometries]:
+    """Return the region and the centre lines of a curve."""
+    traced = trace(curve, tolerance)
+    scales = [k / contours for k in range(contours, 0, -1)]
     lines = np.array(
         [shapely.linestrings(strand * k) for strand in traced.strands for k in scales], dtype=object
     )
     areas = np.empty(0, dtype=object)
     if traced.rings:
-        region = settle(traced.rings, element.fill)
+        region = settle(traced.rings, fill)
         areas = _bands([Affine.scale(k).apply(region) for k in scales])
-    reach = float(np.min(everywhere(shapely.get_coordinates(lines)))) if callable(tolerance) else tolerance
-    copies = distinct(copies, [np.concatenate([areas, lines])], reach)
-    return Figure(
-        element,
-        np.concatenate([copy.apply(areas) for copy in copies]) if len(areas) else areas,
-        np.concatenate([copy.apply(lines) for copy in copies]),
+    return areas, lines
+
+
+def _turned(
+    areas: Geometries, lines: Geometries, copies: Sequence[Affine], reach: float
+) -> tuple[Geometries, Geometries]:
+    """Return the copies of an element that differ."""
+    kept = distinct(copies, [np.concatenate([areas, lines])], reach)
+    return (
+        np.concatenate([copy.apply(areas) for copy in kept]) if len(areas) else areas,
+        np.concatenate([copy.apply(lines) for copy in kept]),
     )
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import astuple
 
 import numpy as np
 import shapely
@@ -30,7 +29,7 @@ def distinct(
     symmetry = _Symmetry([np.asarray(group, dtype=object) for group in groups], tolerance)
     if symmetry.centre is None or len(transforms) < 2:
         return list(transforms)
-    rows = np.array([astuple(each) for each in transforms])
+    rows = np.array([each.row for each in transforms])
     centre = symmetry.centre
     places = np.column_stack([rows[:, :2] @ centre + rows[:, 4], rows[:, 2:4] @ centre + rows[:, 5]])
     near = _earlier_neighbours(places, tolerance * np.abs(rows[:, :4]).max(axis=1))

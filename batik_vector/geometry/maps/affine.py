@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import astuple, dataclass
+from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
@@ -62,8 +62,9 @@ class Affine:
     f: float = 0.0
 
     def __post_init__(self) -> None:
-        if not all(math.isfinite(value) for value in astuple(self)):
-            raise GeometryError(f"an affine map needs finite numbers, not {astuple(self)}")
+        # A sum is finite where all its parts are; one that runs over is looked at again, part by part.
+        if not math.isfinite(sum(self.row)) and not all(map(math.isfinite, self.row)):
+            raise GeometryError(f"an affine map needs finite numbers, not {self.row}")
 
     @staticmethod
     def translation(shift: tuple[float, float]) -> Affine:
@@ -99,6 +100,11 @@ class Affine:
         return Affine(factor.real, -factor.imag, factor.imag, factor.real, shift.real, shift.imag)
 
     @property
+    def row(self) -> tuple[float, float, float, float, float, float]:
+        """The six numbers (a, b, c, d, e, f)."""
+        return self.a, self.b, self.c, self.d, self.e, self.f
+
+    @property
     def determinant(self) -> float:
         """The factor on areas; negative where the map reflects."""
         return self.a * self.d - self.b * self.c
@@ -119,7 +125,7 @@ class Affine:
     @property
     def is_identity(self) -> bool:
         """Whether the map moves nothing at all."""
-        return self == Affine()
+        return self.row == (1.0, 0.0, 0.0, 1.0, 0.0, 0.0)
 
     def is_similarity(self) -> bool:
         """Whether shapes are kept: one factor on all lengths, reflected or not."""
