@@ -1,7 +1,7 @@
 """Recipes: a page of TOML becomes a :class:`~batik_vector.model.Recipe`, or every fault is told at once.
 
-Text is read by tomllib, checked by pydantic against the dataclasses of :mod:`batik_vector.model`, and
-only where something is wrong is the line of each key looked up.
+Text is read by tomllib and built into the dataclasses of :mod:`batik_vector.model`. Only where that fails
+is pydantic asked what is wrong, and the line of each key looked up.
 """
 
 from __future__ import annotations
@@ -30,6 +30,7 @@ from batik_vector.reading.files import MAX_TEXT, read_text
 from batik_vector.reading.hints import Hint
 from batik_vector.reading.lines import Lines
 from batik_vector.reading.overrides import Override, overridden, parse_override
+from batik_vector.reading.quick import UnsureError, built
 from batik_vector.references import Path, dotted, unknown_references
 
 if TYPE_CHECKING:
@@ -145,6 +146,14 @@ def _adapter() -> TypeAdapter[Recipe]:
 
 def _checked(data: dict[str, Any]) -> tuple[Recipe | None, list[Found]]:
     """Return the recipe, or what is wrong with it."""
+    try:
+        return built(Recipe, data), []
+    except UnsureError:
+        return _validated(data)
+
+
+def _validated(data: dict[str, Any]) -> tuple[Recipe | None, list[Found]]:
+    """Return the recipe as pydantic reads it, or what it finds wrong."""
     from pydantic import ValidationError
 
     found = unknown_keys(data, Hint(Recipe))
