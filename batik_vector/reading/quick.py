@@ -2,7 +2,7 @@
 
 Building pydantic's validator costs ten times what it takes to read a recipe, and every call of the command
 pays it. So a recipe is first built straight from the hints of its dataclasses. This builder knows nothing
-of messages: whatever it is not sure of raises :class:`UnsureError`, and pydantic, which knows how to tell what is
+of messages: whatever it is not sure of raises :class:`UnsureError`, and pydantic, which can tell what is
 wrong, has the last word. What it accepts, pydantic accepts with the same values; tests hold it to that.
 """
 
@@ -98,7 +98,7 @@ def _number(hint: Hint, value: Any) -> float:
 
 def _bounded(hint: Hint, value: float) -> float:
     bounds = hint.bounds
-    if not math.isfinite(value) or (bounds and not bounds.low <= value <= bounds.high):
+    if not abs(value) < math.inf or (bounds and not bounds.low <= value <= bounds.high):
         raise UnsureError
     return value
 
