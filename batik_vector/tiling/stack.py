@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from batik_vector.artwork import Cell, Geometries, Ink, Layer, Overlap
 from batik_vector.errors import SeamError, TooLargeError
 from batik_vector.geometry.regions import oriented
-from batik_vector.tiling import seams
+from batik_vector.tiling import overlay, seams
 from batik_vector.tiling.once import drawn_once
 from batik_vector.tiling.torus import (
     Lattice,
@@ -285,7 +285,7 @@ def _cut(marks: _Marks, cutters: Geometries, pieces_of: Pieces) -> _Marks:
     rows, away = _cutters_of(marks.geometries, cutters)
     if not len(rows):
         return marks
-    left = shapely.difference(marks.geometries[rows], away, grid_size=1.0)
+    left = overlay.less(marks.geometries[rows], away)
     pieces, names = pieces_of(left, marks.names[rows])
     whole = np.ones(len(marks.geometries), bool)
     whole[rows] = False

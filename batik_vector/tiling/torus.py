@@ -16,6 +16,7 @@ import shapely
 from numpy.typing import NDArray
 
 from batik_vector.artwork import Geometries
+from batik_vector.tiling import overlay
 from batik_vector.units import STEPS_PER_MM
 
 Steps = NDArray[np.int64]
@@ -157,7 +158,7 @@ def clip_areas(
         flat, flat_names = polygons_of(shapely.make_valid(split[folded]), split_names[folded])
         split = np.concatenate([split[~folded], flat])
         split_names = np.concatenate([split_names[~folded], flat_names])
-    pieces, piece_names = polygons_of(shapely.intersection(split, window.box, grid_size=1.0), split_names)
+    pieces, piece_names = polygons_of(overlay.within(split, window.box), split_names)
     return np.concatenate([areas[inside], pieces]), np.concatenate([names[inside], piece_names])
 
 

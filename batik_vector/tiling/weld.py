@@ -11,6 +11,7 @@ import shapely
 
 from batik_vector.artwork import Geometries
 from batik_vector.geometry.sampling import Indices
+from batik_vector.tiling import overlay
 from batik_vector.tiling.torus import polygons_of
 
 ROUNDS = 6
@@ -76,7 +77,7 @@ def united(areas: Geometries, pairs: Indices) -> tuple[Geometries, Indices]:
     for size in np.unique(sizes[sizes > 1]):
         mine = sizes == size
         groups = areas[order[start[mine][:, None] + np.arange(size)]]
-        whole = np.asarray(shapely.union_all(groups, axis=1, grid_size=1.0), dtype=object)
+        whole = overlay.united(groups)
         pieces, row = polygons_of(whole, np.arange(len(whole)))
         origin = heads[mine][row]
         # Areas that only touch fall apart again, each under its own name.
