@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from batik_vector.artwork import Geometries
 
-Again = Callable[[NDArray[np.intp]], Geometries]
+Again = Callable[[NDArray[np.intp]], shapely.Geometry | Geometries]
 """Makes the results of some rows again, on the grid."""
 
 
