@@ -206,10 +206,13 @@ def _each(report: dict[str, Any]) -> Iterator[None]:
 
 def _progress(jobs: Sequence[Job], quiet: bool) -> Iterator[tuple[Job, Callable[[str], None]]]:
     """Yield each job with a function that moves the bar: one step for a stage."""
+    if quiet or not sys.stderr.isatty():
+        yield from ((job, lambda stage: None) for job in jobs)
+        return
     from tqdm import tqdm
 
     steps = sum(len(job.recipe.place) + 1 + len(job.files) for job in jobs)
-    with tqdm(total=steps, delay=1, disable=True if quiet else None, file=sys.stderr, leave=False) as bar:
+    with tqdm(total=steps, delay=1, file=sys.stderr, leave=False) as bar:
         for job in jobs:
 
             def tell(stage: str) -> None:
