@@ -21,6 +21,11 @@ if TYPE_CHECKING:
     from batik_vector.artwork import Ink as Ink
     from batik_vector.artwork import Layer as Layer
     from batik_vector.artwork import violations as violations
+    from batik_vector.borderspec import BorderSpec as BorderSpec
+    from batik_vector.borderspec import RailSpec as RailSpec
+    from batik_vector.certificate import Certificate as Certificate
+    from batik_vector.certificate import certify as certify
+    from batik_vector.compiler import compile_cloth as compile_cloth
     from batik_vector.compiler import compile_recipe as compile_recipe
     from batik_vector.errors import BatikError as BatikError
     from batik_vector.errors import ExportError as ExportError
@@ -38,6 +43,7 @@ if TYPE_CHECKING:
     from batik_vector.model import Placement as Placement
     from batik_vector.model import Recipe as Recipe
     from batik_vector.model import TileSpec as TileSpec
+    from batik_vector.model import YardageSpec as YardageSpec
     from batik_vector.motif import Element as Element
     from batik_vector.motif import Flower as Flower
     from batik_vector.motif import Rosette as Rosette
@@ -46,7 +52,9 @@ if TYPE_CHECKING:
 
 _HOMES = {
     "batik_vector.artwork": ("Artwork", "Cell", "Ink", "Layer", "violations"),
-    "batik_vector.compiler": ("compile_recipe",),
+    "batik_vector.borderspec": ("BorderSpec", "RailSpec"),
+    "batik_vector.certificate": ("Certificate", "certify"),
+    "batik_vector.compiler": ("compile_cloth", "compile_recipe"),
     "batik_vector.errors": (
         "BatikError",
         "ExportError",
@@ -60,7 +68,7 @@ _HOMES = {
         "UnsupportedByFormatError",
     ),
     "batik_vector.export": ("write_artwork",),
-    "batik_vector.model": ("ClothSpec", "InkSpec", "Placement", "Recipe", "TileSpec"),
+    "batik_vector.model": ("ClothSpec", "InkSpec", "Placement", "Recipe", "TileSpec", "YardageSpec"),
     "batik_vector.motif": ("Element", "Flower", "Rosette"),
     "batik_vector.recipe": ("load_recipe", "read_recipe"),
 }

@@ -19,14 +19,17 @@ rely on its being empty.
 from __future__ import annotations
 
 import enum
-from collections.abc import Iterator
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from typing import Any, Protocol
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from batik_vector.errors import ExportError
+from batik_vector.outlines import MM, Outlines, of_polygons, of_polylines
 from batik_vector.units import GRID_MM, STEPS_PER_MM, on_grid
 
 Geometries = NDArray[np.object_]
@@ -146,6 +149,79 @@ class Provenance:
     version: str = ""
 
 
+@dataclass(frozen=True)
+class Plate:
+    """What one layer of a page holds: whether there are any areas and any lines.
+
+    A ``guide`` is no ink: marks for those who print and cut, outside the drawing, which plotters skip.
+    """
+
+    ink: Ink
+    areas: bool = True
+    lines: bool = True
+    guide: bool = False
+
+
+@dataclass(frozen=True)
+class Margins:
+    """How far a page reaches beyond its cell on each side, in grid steps."""
+
+    left: int = 0
+    bottom: int = 0
+    right: int = 0
+    top: int = 0
+
+
+class Page(Protocol):
+    """What a writer draws: layers of marks that come piece by piece, so that no page need fit in memory.
+
+    The cell is what is left when the page is trimmed; its lower left corner is (0, 0). An :class:`Artwork`
+    is a page in one piece.
+    """
+
+    @property
+    def title(self) -> str:
+        """What the design is called."""
+
+    @property
+    def cell(self) -> Cell:
+        """The rectangle to which the page is trimmed."""
+
+    @property
+    def margins(self) -> Margins:
+        """How far the page reaches beyond the cell."""
+
+    @property
+    def bleed(self) -> float:
+        """How far the drawing reaches beyond the cell on every side, in mm."""
+
+    @property
+    def cloth(self) -> str:
+        """The ground's colour on screen."""
+
+    @property
+    def tolerance(self) -> float:
+        """How far any drawn edge may stand from the true curve, in mm."""
+
+    @property
+    def provenance(self) -> Provenance:
+        """Recipe, seed and version."""
+
+    @property
+    def vertex_count(self) -> int:
+        """Vertices of all marks together, or a fair estimate of them."""
+
+    @property
+    def plates(self) -> Sequence[Plate]:
+        """The layers, the lowest first."""
+
+    def areas(self, number: int) -> Iterator[Outlines]:
+        """Yield the areas of a layer, in pieces."""
+
+    def lines(self, number: int) -> Iterator[Outlines]:
+        """Yield the centre lines of a layer, in pieces."""
+
+
 @dataclass(frozen=True, eq=False)
 class Artwork:
     """A page of ink layers on cloth, in the normal form that the head of this module states.
@@ -153,7 +229,8 @@ class Artwork:
     ``tolerance`` (mm) is how far any drawn edge may stand from the true curve. ``bleed`` (mm) is how
     far the geometry reaches beyond the cell on every side. ``borders`` are the stretches of the seam along
     which a mark's own border runs, so that it has no twin on the opposite edge: (ink, axis, from, to), the
-    last two in grid steps along the left edge (axis 0) or the lower one (axis 1).
+    last two in grid steps along the left edge (axis 0) or the lower one (axis 1). ``facts`` are plain values
+    on how it was made, for reports: how a toss came out, what a fit stretched.
     """
 
     title: str
@@ -164,6 +241,7 @@ class Artwork:
     bleed: float = 0.0
     provenance: Provenance = Provenance()
     borders: frozenset[tuple[str, int, int, int]] = frozenset()
+    facts: Mapping[str, Any] = field(default_factory=dict)
 
     @property
     def vertex_count(self) -> int:
@@ -174,11 +252,58 @@ class Artwork:
             for marks in (layer.areas, layer.lines)
         )
 
+    @property
+    def margins(self) -> Margins:
+        """How far the page reaches beyond the cell: as far as the geometry."""
+        bleed = round(self.bleed * STEPS_PER_MM)
+        return Margins(bleed, bleed, bleed, bleed)
+
+    @property
+    def plates(self) -> tuple[Plate, ...]:
+        """The layers as a page tells of them."""
+        return tuple(Plate(layer.ink, len(layer.areas) > 0, len(layer.lines) > 0) for layer in self.layers)
+
+    def areas(self, number: int) -> Iterator[Outlines]:
+        """Yield the areas of a layer, all in one piece.
+
+        Raises:
+            ExportError: where a coordinate is not finite, or an area is no polygon.
+        """
+        layer = self.layers[number]
+        kind = shapely.GeometryType.POLYGON
+        if len(layer.areas):
+            _check_marks(layer.areas, kind, f'ink "{layer.ink.name}": an area is no polygon, or empty')
+            _check_finite(layer.areas, layer.ink.name)
+            yield replace(of_polygons(layer.areas, MM), names=layer.area_names)
+
+    def lines(self, number: int) -> Iterator[Outlines]:
+        """Yield the lines of a layer, all in one piece.
+
+        Raises:
+            ExportError: where a coordinate is not finite, or a line is no polyline.
+        """
+        layer = self.layers[number]
+        kind = shapely.GeometryType.LINESTRING
+        if len(layer.lines):
+            _check_marks(layer.lines, kind, f'ink "{layer.ink.name}": a line is no polyline, or empty')
+            _check_finite(layer.lines, layer.ink.name)
+            yield replace(of_polylines(layer.lines, MM), names=layer.line_names)
+
     def _repr_svg_(self) -> str:
         """Show the tile in a notebook."""
         from batik_vector.export.svg import svg_text
 
         return svg_text(self)
+
+
+def _check_marks(marks: Geometries, kind: shapely.GeometryType, words: str) -> None:
+    if (shapely.get_type_id(marks) != kind).any() or shapely.is_empty(marks).any():
+        raise ExportError(words)
+
+
+def _check_finite(marks: Geometries, ink: str) -> None:
+    if not np.isfinite(shapely.get_coordinates(marks)).all():
+        raise ExportError(f'ink "{ink}": a coordinate is not finite')
 
 
 def violations(artwork: Artwork) -> list[str]:

@@ -134,48 +134,71 @@ def _bytes(count: int) -> str:
     return f"{count / 1e6:.1f} MB" if count >= 1e6 else f"{count / 1e3:.1f} kB"
 
 
-@cli.command("check")
-@_recipes
-@_set
-@_json
-def check_command(recipes: Sequence[str], overrides: Sequence[str], as_json: bool) -> None:
-    """Compile recipes and tell the facts, without writing anything.
+def _limit(name: str, metavar: str, says: str) -> Callable[[Any], Any]:
+    """Return an option that sets one of the certificate's limits."""
+    return click.option(f"--{name}", type=click.FloatRange(min=0), metavar=metavar, help=says)
 
-    Exits with 1 where the artwork breaks its normal form or opposite edges would not meet.
+
+@cli.command("check")
+@click.argument("sources", nargs=-1, required=True, metavar="RECIPE|SVG…")
+@_set
+@click.option("--repeat", metavar="WORDS", help="How a drawing without a recipe repeats.  [default: grid]")
+@click.option("--group", metavar="NAME", help="The wallpaper group it ought to have, such as p4m.")
+@_limit("position", "MM", "How far a crossing and its twin may stand apart.  [default: 0.0001]")
+@_limit("tangent", "DEG", "How far a border may turn on the seam.  [default: 0.1]")
+@_limit("near", "MM", "How near to the seam slivers are looked for.  [default: 0.5]")
+@_limit("thin", "MM", "What is thinner along the seam is a sliver.  [default: 0.02]")
+@_limit("double", "MM", "Lines this close are drawn twice.  [default: 0.005]")
+@_limit("striping", "%", "Unevenness of columns or rows that is a fault.  [default: none is]")
+@click.option("--pointers", metavar="DIR", help="Write NAME-check.svg with a mark at each fault.")
+@_json
+def check_command(
+    sources: Sequence[str],
+    overrides: Sequence[str],
+    repeat: str | None,
+    group: str | None,
+    pointers: str | None,
+    as_json: bool,
+    **limits: float | None,
+) -> None:
+    """Certify tiles: do opposite edges meet, is anything drawn twice, which symmetry is there?
+
+    A recipe is compiled and measured. An SVG, whoever drew it, is measured as it is drawn, its page being
+    the tile. Nothing is written but what --pointers asks for. Exits with 1 where a tile has faults.
     """
-    from batik_vector.compiler import inspect
-    from batik_vector.jobs import made, read_jobs, warnings
+    from batik_vector.certificate import Limits
+    from batik_vector.checking import Wishes, check_source, pointer_files, write_pointers
 
     with _report(as_json) as report:
-        for job, tell in _progress(read_jobs(recipes, overrides), as_json):
-            with _each(report):
-                artwork = made(job, tell)
-                facts = {"recipe": job.source, **inspect(artwork), "warnings": warnings(job.recipe, artwork)}
-                report["recipes"].append(facts)
-                _tell_facts(facts)
-                if facts["violations"] or facts["seam"]:
-                    report["exit"] = max(report["exit"], 1)
+        given = {name: value for name, value in limits.items() if value is not None}
+        wishes = Wishes(repeat or "", group or "", Limits(**given))
+        places = pointer_files(sources, Path(pointers)) if pointers is not None else {}
+        found = []
+        with _stages(as_json) as tell:
+            for source in sources:
+                with _each(report):
+                    each = check_source(source, overrides, wishes, tell)
+                    found.append(each)
+                    report["recipes"].append(each.facts)
+                    _tell_facts(each.facts)
+                    report["exit"] = max(report["exit"], 0 if each.passed else 1)
+        for path in write_pointers(found, places) if places else ():
+            click.echo(f'{path}  shows the faults in layer "check"', err=True)
+
+
+@contextmanager
+def _stages(quiet: bool) -> Iterator[Callable[[str], None]]:
+    """Show the stage of work that takes long."""
+    from tqdm import tqdm
+
+    with tqdm(bar_format="{desc} {elapsed}", delay=1, disable=quiet or None, leave=False) as bar:
+        yield lambda stage: bar.set_description_str(stage)
 
 
 def _tell_facts(facts: dict[str, Any]) -> None:
-    width, height = (f"{side:g}" for side in facts["cell_mm"])
-    straight = "straight" if facts["drop"] == "0" else f"with a drop of {facts['drop']}"
-    lines = [
-        f"{facts['recipe']}: {facts['title']}",
-        f"  tile {width} × {height} mm, repeats {straight}; {facts['vertices']:,} vertices",
-    ]
-    for layer in facts["layers"]:
-        marks = f"{layer['areas']:,} areas, {layer['lines']:,} lines"
-        lines.append(f"  {layer['ink']} ({layer['colour']}): {marks}, covers {100 * layer['covers']:.1f} %")
-    lines += [f"  fault: {words}" for words in facts["violations"]]
-    lines += [
-        f"  fault: {gap['ink']}: {gap['edges']} edges disagree from {gap['from_mm']:g} to {gap['to_mm']:g} mm"
-        for gap in facts["seam"]
-    ]
-    lines += [f"  warning: {words}" for words in facts["warnings"]]
-    if not facts["violations"] and not facts["seam"]:
-        lines.append("  sound: opposite edges agree, nothing is drawn twice")
-    click.echo("\n".join(lines), err=True)
+    from batik_vector.telling import told
+
+    click.echo("\n".join(told(facts)), err=True)
 
 
 @contextmanager

@@ -6,20 +6,23 @@ assembled on the torus; what leaves is an :class:`~batik_vector.artwork.Artwork`
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, replace
 from typing import Any
 
 import shapely
 
 from batik_vector._version import __version__
-from batik_vector.artwork import Artwork, Ink, Provenance, violations
-from batik_vector.errors import RecipeError, blame
+from batik_vector.artwork import Artwork, Cell, DropAxis, Ink, Provenance, violations
+from batik_vector.bordering import compile_borders
+from batik_vector.errors import Fault, RecipeError, blame
 from batik_vector.model import Recipe
-from batik_vector.placing import place
+from batik_vector.placing import Placed, place
 from batik_vector.tiling import seams
 from batik_vector.tiling.stack import assemble
 from batik_vector.tiling.torus import to_step_grid
-from batik_vector.units import STEPS_PER_MM
+from batik_vector.tiling.yardage import Yardage, compile_yardage
+from batik_vector.units import STEPS_PER_MM, to_steps
 
 Progress = Callable[[str], None]
 
@@ -37,28 +40,74 @@ def compile_recipe(recipe: Recipe, *, progress: Progress | None = None) -> Artwo
     """
     tell = progress or (lambda stage: None)
     inks = {name: Ink(name, spec.colour, spec.width, spec.overlap) for name, spec in recipe.ink.items()}
-    unit = recipe.tile.unit()
+    unit = recipe.tiling.unit()
     sheets = []
     spent = 0
+    before: list[Placed] = []
     for number, placement in enumerate(recipe.place):
-        tell(f"placing {placement.motif}")
+        tell(f"placing {', '.join(placement.motifs)}")
         with blame(f"place[{number}]"):
-            placed = place(placement, recipe, unit, inks, recipe.limit - spent)
+            orbit = recipe.tiling.orbit(placement.symmetry, placement.phase, placement.region)
+            placed = place(placement, recipe, unit, inks, recipe.limit - spent, orbit, before)
+        before.append(placed)
         sheets += placed.sheets
         spent += placed.vertices
     tell("cutting the tile")
-    cell = recipe.tile.cell()
+    cell = recipe.tiling.cell()
     with blame("tile"):
-        layers, borders = assemble(sheets, list(inks.values()), cell, unit.lattice, recipe.tolerance)
+        lattice = recipe.tiling.repeating().lattice
+        layers, borders = assemble(sheets, list(inks.values()), cell, lattice, recipe.tolerance)
     if not layers:
         raise RecipeError("nothing is left to draw: every mark is covered or cut away")
+    return replace(_blank(recipe, cell), layers=layers, borders=borders, facts=_facts(recipe, before))
+
+
+def _facts(recipe: Recipe, placed: Sequence[Placed]) -> dict[str, Any]:
+    """Return how the tile was stretched, in per cent, and how its tosses came out."""
+    stretch = [round(100 * (factor - 1), 6) for factor in recipe.tiling.stretch]
+    tosses = [
+        {"place": number, **asdict(each.tossed.report)}
+        for number, each in enumerate(placed)
+        if each.tossed is not None
+    ]
+    return ({"stretch_percent": stretch} if any(stretch) else {}) | ({"tossed": tosses} if tosses else {})
+
+
+def compile_cloth(
+    recipe: Recipe, *, tile: Artwork | None = None, progress: Progress | None = None
+) -> Yardage:
+    """Compile a recipe to its yardage: the cloth that it fills from its tile, with its borders.
+
+    Args:
+        recipe: with a ``yardage``; one that has borders alone needs no tile.
+        tile: the recipe's tile, where it has been compiled already.
+        progress: called with a word or two as each stage begins, and while the cloth is drawn.
+
+    Raises:
+        RecipeError: naming the key at fault.
+        SeamError: where no clean seam is found.
+    """
+    spec = recipe.yardage
+    if spec is None:
+        raise RecipeError([Fault("missing: the recipe says of no cloth how large it is", "yardage")])
+    if tile is None and recipe.tile is not None:
+        tile = compile_recipe(recipe, progress=progress)
+    if tile is None:
+        tile = _blank(recipe, Cell(to_steps(spec.width), to_steps(spec.length or 0)))
+    width, length = (steps / STEPS_PER_MM for steps in spec.size(tile.cell))
+    frame = compile_borders(recipe.border, recipe, (0.0, 0.0, width, length)) if recipe.border else None
+    with blame("yardage"):
+        return compile_yardage(tile, spec, frame=frame, inks=list(recipe.ink), progress=progress)
+
+
+def _blank(recipe: Recipe, cell: Cell) -> Artwork:
+    """Return the page of a recipe with nothing on it."""
     return Artwork(
         title=recipe.title,
         cell=cell,
-        layers=layers,
+        layers=(),
         cloth=recipe.cloth.colour,
         tolerance=recipe.tolerance,
-        borders=borders,
         provenance=Provenance(recipe.source, recipe.seed, __version__),
     )
 
@@ -82,6 +131,7 @@ def inspect(artwork: Artwork) -> dict[str, Any]:
         "title": artwork.title,
         "cell_mm": [artwork.cell.width, artwork.cell.height],
         "drop": str(artwork.cell.drop),
+        "drop_axis": "height" if artwork.cell.axis == DropAxis.COLUMN else "width",
         "vertices": artwork.vertex_count,
         "layers": [
             {

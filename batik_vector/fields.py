@@ -83,6 +83,34 @@ class Text:
         return core_schema.no_info_after_validator_function(self.parse, handler(source))
 
 
+@dataclass(frozen=True)
+class Several:
+    """Marks text for which a list of texts may stand: ``Annotated[str | tuple[str, ...], Several()]``."""
+
+    expected = "text in quotes, or a list of texts"
+
+    def parse(self, value: Any) -> str | tuple[str, ...]:
+        """Return a text, or several as a tuple.
+
+        Raises:
+            ValueError: with what was expected.
+        """
+        if isinstance(value, str):
+            return value
+        if isinstance(value, list | tuple) and value and all(isinstance(each, str) for each in value):
+            return tuple(value)
+        raise ValueError(f"expected {self.expected}")
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Callable[[Any], Any]) -> Any:
+        """Let :meth:`parse` decide."""
+        from pydantic_core import core_schema
+
+        return core_schema.no_info_plain_validator_function(self.parse)
+
+
+Names: TypeAlias = Annotated[str | tuple[str, ...], Several()]
+"""A name, or a list of names."""
+
 _COLOUR = "^#([0-9a-fA-F]{3}){1,2}$"
 
 

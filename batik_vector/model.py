@@ -2,25 +2,32 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Annotated, TypeAlias
 
 from batik_vector.artwork import Overlap
+from batik_vector.borderspec import BorderSpec
 from batik_vector.errors import Fault, GeometryError, RecipeError
-from batik_vector.fields import Between, Colour, Hidden, Length, OneOf, Says, check, choice, parse_colour
+from batik_vector.fields import (
+    Between,
+    Colour,
+    Hidden,
+    Length,
+    OneOf,
+    Says,
+    check,
+    choice,
+    parse_colour,
+)
 from batik_vector.motif import MOTIFS, Motif, Treatment
 from batik_vector.outputs import AnyOutput, OutputSpec
-from batik_vector.references import dotted, unknown_references
+from batik_vector.placement import Placement
+from batik_vector.references import Path, dotted, places, unknown_references
 from batik_vector.tiling.cells import Cut, TileSpec
-from batik_vector.tiling.layouts import AnyLayout, Single
+from batik_vector.tiling.yardage import YardageSpec
 
 AnyMotif: TypeAlias = Annotated[Motif, OneOf(lambda: MOTIFS, "motif")]
-MAX_SIDE_MM = 20_000.0
-Side: TypeAlias = Annotated[Length, Between(0.1, MAX_SIDE_MM)]
-Place2D: TypeAlias = tuple[
-    Annotated[Length, Between(-MAX_SIDE_MM, MAX_SIDE_MM)],
-    Annotated[Length, Between(-MAX_SIDE_MM, MAX_SIDE_MM)],
-]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,41 +62,14 @@ def _colour(text: str) -> str:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Placement:
-    """A motif set on the cloth by a layout, at a size and a place."""
-
-    motif: Annotated[str, Says("name of the motif")]
-    layout: Annotated[AnyLayout, Says("how copies are set out")] = field(default_factory=Single)
-    width: Annotated[
-        Side | None,
-        Says("breadth of all copies before they are turned, without bodies of lines; of one in a lattice"),
-    ] = None
-    scale: Annotated[Annotated[Length, Between(1e-3, MAX_SIDE_MM)] | None, Says("mm to one motif unit")] = (
-        None
-    )
-    at: Annotated[
-        Place2D | None, Says("where the layout's origin lies; the middle of the repeat when left out")
-    ] = None
-    turn: Annotated[float, Between(-360, 360), Says("degrees the whole is turned")] = 0.0
-    ink: Annotated[str, Says("ink of the elements that name none; needed where there are several")] = ""
-
-    def __post_init__(self) -> None:
-        check(self)
-        if self.width is not None and self.scale is not None:
-            raise GeometryError("width and scale are both given: expected one of them")
-        if self.width is None and self.scale is None:
-            raise GeometryError(
-                'neither width nor scale is given: expected one of them, such as width = "280 mm"'
-            )
-
-
-@dataclass(frozen=True, kw_only=True)
 class Recipe:
     """All that is needed to make an artwork."""
 
     motif: Annotated[dict[str, AnyMotif], Says("the motifs, by name")]
-    place: Annotated[tuple[Placement, ...], Says("what lies on the cloth, bottom first")]
-    tile: Annotated[TileSpec, Says("the repeat")]
+    place: Annotated[tuple[Placement, ...], Says("what lies on the cloth, bottom first")] = ()
+    tile: Annotated[TileSpec | None, Says("the repeat; left out where borders alone are drawn")] = None
+    yardage: Annotated[YardageSpec | None, Says("a cloth of given size, filled from the tile")] = None
+    border: Annotated[tuple[BorderSpec, ...], Says("bands along the sides of the yardage")] = ()
     title: Annotated[str, Says("what the design is called")] = "Untitled"
     tolerance: Annotated[
         Annotated[Length, Between(0.002, 5)], Says("how far a drawn edge may stand from the true curve")
@@ -110,11 +90,44 @@ class Recipe:
     def __post_init__(self) -> None:
         check(self)
         faults = [fault for _, fault in unknown_references(self)]
-        faults += self._bad_names() + self._without_ink()
-        if not self.motif or not self.place:
-            faults.append(Fault("expected at least one", "place" if self.motif else "motif"))
+        faults += self._missing() + self._bad_names() + self._without_ink() + self._bad_symmetries()
         if faults:
             raise RecipeError(faults)
+
+    @property
+    def tiling(self) -> TileSpec:
+        """The repeat.
+
+        Raises:
+            RecipeError: where the recipe has none, but borders alone.
+        """
+        if self.tile is None:
+            raise RecipeError([Fault("missing: the recipe has borders alone, and no tile", "tile")])
+        return self.tile
+
+    def placements(self) -> Iterator[tuple[Path, Placement]]:
+        """Yield every placement, those of the tile first, and where it stands in the recipe."""
+        return places(self)
+
+    def _missing(self) -> list[Fault]:
+        """Return what a recipe cannot do without."""
+        bare = bool(self.border) and not self.place and self.tile is None
+        found = []
+        if not self.motif and not bare:
+            found.append(Fault("expected at least one", "motif"))
+        if not self.place and not bare:
+            words = "missing, expected a list of tables: write [[place]] (what lies on the cloth)"
+            found.append(Fault(words, "place"))
+        if self.tile is None and not bare:
+            found.append(Fault("missing, expected a table (the repeat)", "tile"))
+        if self.border and self.yardage is None:
+            words = "missing, expected a table: the size of the cloth that borders go round"
+            found.append(Fault(words, "yardage"))
+        if bare and self.yardage is not None and self.yardage.length is None:
+            found.append(
+                Fault("missing: a cloth of borders alone has no repeat to be as long as", "yardage.length")
+            )
+        return found
 
     def _bad_names(self) -> list[Fault]:
         """Return the names that a file could not show."""
@@ -125,24 +138,39 @@ class Recipe:
             if not (0 < len(name) <= 80 and name.isprintable())
         ]
 
+    def _bad_symmetries(self) -> list[Fault]:
+        """Return the placements whose symmetry the repeat does not admit."""
+        found = []
+        for number, placement in enumerate(self.place if self.tile else ()):
+            try:
+                self.tiling.orbit(placement.symmetry, placement.phase, placement.region)
+            except GeometryError as error:
+                key = "symmetry" if placement.symmetry else "region"
+                found.append(Fault(str(error), f"place[{number}].{key}"))
+        return found
+
     def _without_ink(self) -> list[Fault]:
-        """Return the placements that leave open which of several inks draws them."""
+        """Return the placements and rails that leave open which of several inks draws them."""
         if len(self.ink) == 1:
             return []
         several = "several inks" if self.ink else "no inks"
-        return [
-            Fault(
-                f"missing: the recipe has {several}, expected one of {', '.join(self.ink)}",
-                f"place[{number}].ink",
-            )
-            for number, placement in enumerate(self.place)
-            if not placement.ink
-            and placement.motif in self.motif
-            and any(
-                not part.ink and part.treatment != Treatment.CUT
-                for part in self.motif[placement.motif].parts()
-            )
+        words = f"missing: the recipe has {several}, expected one of {', '.join(self.ink)}"
+        open_places = [path for path, placement in self.placements() if self._needs_ink(placement)]
+        rails: list[Path] = [
+            ("border", number, "rails", index)
+            for number, border in enumerate(self.border)
+            for index, rail in enumerate(border.rails)
+            if not rail.ink
         ]
+        return [Fault(words, dotted((*path, "ink"))) for path in open_places + rails]
+
+    def _needs_ink(self, placement: Placement) -> bool:
+        return not placement.ink and any(
+            not part.ink and part.treatment != Treatment.CUT
+            for name in placement.motifs
+            if name in self.motif
+            for part in self.motif[name].parts()
+        )
 
 
-__all__ = ["ClothSpec", "Cut", "InkSpec", "OutputSpec", "Placement", "Recipe", "TileSpec"]
+__all__ = ["ClothSpec", "Cut", "InkSpec", "OutputSpec", "Placement", "Recipe", "TileSpec", "YardageSpec"]

@@ -2,16 +2,26 @@
 
 from __future__ import annotations
 
+import enum
 import re
 from dataclasses import dataclass, fields
 from typing import Annotated, Any, ClassVar, TypeAlias
 
 from batik_vector.errors import GeometryError
 from batik_vector.export.options import DxfOptions, PdfOptions, PngOptions, SvgOptions
-from batik_vector.fields import Between, Length, OneOf, Says, Text, check
+from batik_vector.fields import Between, Length, OneOf, Says, Text, check, choice
 
 _FILE_WORD = re.compile(r"[\w][\w .+-]{0,79}(?<![ .])\Z")
 Count: TypeAlias = Annotated[int, Between(1, 200)]
+
+
+class Piece(enum.StrEnum):
+    """What of the pattern goes into a file."""
+
+    TILE = "tile"
+    """What repeats."""
+    YARDAGE = "yardage"
+    """The cloth that the tile fills, as large as the recipe's yardage says."""
 
 
 def parse_file_word(text: str) -> str:
@@ -40,9 +50,14 @@ class OutputSpec:
         Text(parse_file_word, "part of a file name"),
         Says("added to the file's name, to tell several of one format apart"),
     ] = ""
+    piece: Annotated[
+        Piece | None, Says("the tile or the yardage; the yardage when left out, where the recipe has one")
+    ] = None
 
     def __post_init__(self) -> None:
         check(self)
+        if self.piece is not None:
+            object.__setattr__(self, "piece", choice(Piece, self.piece, "piece"))
         try:
             parse_file_word(self.name)
         except ValueError as error:

@@ -15,6 +15,8 @@ Path: TypeAlias = tuple[str | int, ...]
 """Keys and indices from the root of a recipe."""
 
 INK_KEYS = ("ink", "line_ink")
+PLACES = ("place", "corner_place")
+"""Keys of a border that hold placements."""
 _BARE = frozenset("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-")
 
 
@@ -69,9 +71,23 @@ def ink_names(node: Any, path: Path = ()) -> Iterator[tuple[Path, str]]:
             yield from ink_names(value, (*path, key))
 
 
+def places(recipe: Any) -> Iterator[tuple[Path, Any]]:
+    """Yield every placement of a recipe and its borders, and where it stands."""
+    for number, place in _listed(child(recipe, "place")):
+        yield ("place", number), place
+    for number, border in _listed(child(recipe, "border")):
+        for key in PLACES:
+            for index, place in _listed(child(border, key)):
+                yield ("border", number, key, index), place
+
+
+def _listed(node: Any) -> Iterator[tuple[str | int, Any]]:
+    return children(node) if isinstance(node, list | tuple) else iter(())
+
+
 def unknown_references(recipe: Any) -> list[tuple[Path, Fault]]:
     """Return what names a motif or an ink that the recipe does not have."""
-    motifs, inks, places = child(recipe, "motif"), child(recipe, "ink"), child(recipe, "place")
+    motifs, inks = child(recipe, "motif"), child(recipe, "ink")
     found: list[tuple[Path, Fault]] = []
 
     def look(path: Path, name: str, known: Any, what: str) -> None:
@@ -82,9 +98,14 @@ def unknown_references(recipe: Any) -> list[tuple[Path, Fault]]:
         inks = {"ink": None}
     for path, name in ink_names(motifs, ("motif",)):
         look(path, name, inks, "ink")
-    for number, place in children(places) if isinstance(places, list | tuple) else ():
+    for number, border in _listed(child(recipe, "border")):
+        for path, name in ink_names(child(border, "rails"), ("border", number, "rails")):
+            look(path, name, inks, "ink")
+    for place_path, place in places(recipe):
         for key, known in (("motif", motifs), ("ink", inks)):
-            name = child(place, key)
-            if isinstance(name, str) and (name or key == "motif"):
-                look(("place", number, key), name, known, key)
+            written = child(place, key)
+            several = isinstance(written, list | tuple)
+            for name in written if several else [written]:
+                if isinstance(name, str) and (name or key == "motif"):
+                    look((*place_path, key), name, known, key)
     return found

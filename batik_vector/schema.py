@@ -16,6 +16,9 @@ from batik_vector.units import MM_PER_UNIT
 
 Schema = dict[str, Any]
 
+ENOUGH = (("place", "tile"), ("border", "yardage"))
+"""A recipe draws a tile, or borders on a cloth."""
+
 _LENGTH_PATTERN = r"(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,3})?\s*(" + "|".join(MM_PER_UNIT) + r")?\s*$"
 
 
@@ -27,6 +30,7 @@ def schema() -> Schema:
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "batik_vector recipe",
         **root,
+        "anyOf": [{"required": list(keys)} for keys in ENOUGH],
         "$defs": dict(sorted(definitions.items())),
     }
 
@@ -102,6 +106,8 @@ def _collection(hint: Hint, definitions: dict[str, Schema]) -> Schema | None:
 
 
 def _text(hint: Hint) -> Schema:
+    if hint.several:
+        return {"anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}}]}
     pattern = hint.text.pattern if hint.text else ""
     return {"type": "string", **({"pattern": pattern} if pattern else {})}
 

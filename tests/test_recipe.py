@@ -97,7 +97,7 @@ def test_what_is_left_out_has_its_default() -> None:
     assert list(recipe.ink) == ["ink"]
     assert isinstance(recipe.motif["dot"], Rosette)
     assert recipe.output == ()
-    assert recipe.tile.repeat == "grid"
+    assert recipe.tiling.repeat == "grid"
 
 
 @pytest.mark.parametrize(

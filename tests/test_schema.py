@@ -71,6 +71,20 @@ def test_the_schema_accepts_what_compiles(path: Path) -> None:
 
 BEYOND = {
     *(
+        "several motifs",
+        "unknown motif of a toss",
+        "sizes the wrong way round",
+        "more marks than fit",
+        "farther than the repeat",
+        "a mark larger than the repeat",
+        "marks without number",
+        "weights for other motifs",
+        "a place for a toss",
+        "a turn of stripes",
+        "a line over itself",
+        "lines flipped in turn",
+    ),
+    *(
         "a point",
         "a segment",
         "m = 3",

@@ -20,11 +20,12 @@ from pathlib import Path
 
 from PIL import Image, ImageChops
 
-from batik_vector import Artwork, Recipe, compile_recipe, load_recipe
+from batik_vector import Artwork, Recipe, compile_cloth, compile_recipe, load_recipe
 from batik_vector.export import PngOptions, render
 from batik_vector.outputs import PngOutput
 from batik_vector.tiling.field import repeated
-from batik_vector.units import format_mm
+from batik_vector.tiling.yardage import Yardage
+from batik_vector.units import STEPS_PER_MM, format_mm
 
 SAMPLES = Path(__file__).resolve().parents[1] / "samples"
 GALLERY = "README.md"
@@ -48,7 +49,7 @@ class Sample:
 
     path: Path
     recipe: Recipe
-    artwork: Artwork
+    page: Artwork | Yardage
 
     @property
     def picture_path(self) -> Path:
@@ -57,11 +58,15 @@ class Sample:
 
     def picture(self) -> bytes:
         """Return its picture as a PNG file."""
-        own = next((each.repeat for each in self.recipe.output if isinstance(each, PngOutput)), None)
-        field = repeated(self.artwork, *own or repeats(self.artwork.cell.width / self.artwork.cell.height))
-        width, height = field.cell.width, field.cell.height
+        page = self.page
+        if isinstance(page, Artwork):
+            own = next((each.repeat for each in self.recipe.output if isinstance(each, PngOutput)), None)
+            page = repeated(page, *own or repeats(page.cell.width / page.cell.height))
+        around = page.margins
+        width = page.cell.width + (around.left + around.right) / STEPS_PER_MM
+        height = page.cell.height + (around.bottom + around.top) / STEPS_PER_MM
         per_mm = min(WIDTH / width, HEIGHT / height)
-        drawn = Image.open(io.BytesIO(render(field, "png", PngOptions(dpi=FINER * per_mm * 25.4))))
+        drawn = Image.open(io.BytesIO(render(page, "png", PngOptions(dpi=FINER * per_mm * 25.4))))
         size = (min(WIDTH, round(width * per_mm)), min(HEIGHT, round(height * per_mm)))
         small = drawn.convert("RGB").resize(size, Image.Resampling.BOX)
         return next(data for data in _packed(small) if len(data) <= MOST_BYTES)
@@ -69,29 +74,52 @@ class Sample:
     def caption(self) -> str:
         """Return its section of the gallery."""
         recipe = self.recipe
-        size = " × ".join(format_mm(side) for side in recipe.tile.size)
-        inks = ", ".join(f"{ink.ink.name} {ink.ink.colour}" for ink in self.artwork.layers)
-        facts = f"{size} mm, {recipe.tile.repeat}; {inks} on {recipe.cloth.colour}"
+        inks = ", ".join(f"{plate.ink.name} {plate.ink.colour}" for plate in self.page.plates)
+        facts = f"{self._size()}; {inks} on {recipe.cloth.colour}"
         name = self.path.stem
         return "\n\n".join(
             [
-                f"## {recipe.title}",
+                f"### {recipe.title}",
                 f"![{recipe.title}]({name}.png)",
                 *(words for words in leading_comment(recipe.source) if words != recipe.title),
                 f"[{name}.toml]({name}.toml): {facts}.",
             ]
         )
 
+    def _size(self) -> str:
+        if self.recipe.tile is None or isinstance(self.page, Yardage):
+            return f"{format_mm(self.page.cell.width)} × {format_mm(self.page.cell.height)} mm of cloth"
+        size = " × ".join(format_mm(side) for side in self.recipe.tile.size)
+        return f"{size} mm, {self.recipe.tile.repeat}"
+
+
+SECTIONS = {
+    "": "Designs",
+    "ground": "Grounds that flow behind motifs",
+    "toss": "Tossed",
+    "group": "The seventeen wallpaper groups",
+    "border": "Borders and cloths: the seven friezes",
+    "figure": "The paper's figures",
+}
+"""What the first word of a sample's name says of it, in the order of the gallery."""
+
+
+def section(path: Path) -> str:
+    """Return the section of the gallery that a sample stands in."""
+    word = path.stem.split("-")[0]
+    return word if word in SECTIONS else ""
+
 
 def samples() -> list[Path]:
-    """Return the recipes of the samples' folder: our own designs, then the paper's figures."""
-    return sorted(SAMPLES.glob("*.toml"), key=lambda path: (path.stem.startswith("figure-"), path.stem))
+    """Return the recipes of the samples' folder, section by section."""
+    order = list(SECTIONS)
+    return sorted(SAMPLES.glob("*.toml"), key=lambda path: (order.index(section(path)), path.stem))
 
 
 def sample(path: Path) -> Sample:
     """Compile one of them."""
     recipe = load_recipe(path)
-    return Sample(path, recipe, compile_recipe(recipe))
+    return Sample(path, recipe, compile_cloth(recipe) if recipe.yardage else compile_recipe(recipe))
 
 
 def repeats(shape: float) -> tuple[int, int]:
@@ -113,11 +141,14 @@ def leading_comment(text: str) -> list[str]:
 
 def gallery(found: list[Sample]) -> str:
     """Return the page that shows all samples."""
-    head = (
+    parts = [
         "# Samples\n\nEach picture shows several repeats of the tile, those of the paper's figures one. "
         "`make golden` draws them\nand writes this page."
-    )
-    return "\n\n".join([head, *(each.caption() for each in found)]) + "\n"
+    ]
+    for word, title in SECTIONS.items():
+        mine = [each for each in found if section(each.path) == word]
+        parts += [f"## {title}", *(each.caption() for each in mine)] if mine else []
+    return "\n\n".join(parts) + "\n"
 
 
 def same(one: bytes, other: bytes) -> bool:

@@ -21,15 +21,21 @@ from pathlib import Path
 from typing import Annotated, Any
 
 from batik_vector.artwork import Overlap
-from batik_vector.fields import Between, Hidden, LengthUnit, OneOf, Says
+from batik_vector.borderspec import BorderSpec, Corner, Ends, Facing, RailSpec
+from batik_vector.fields import Between, Hidden, LengthUnit, OneOf, Says, Several
 from batik_vector.geometry.curves import CURVES
 from batik_vector.geometry.maps import VARIATIONS
 from batik_vector.geometry.regions import FillRule
-from batik_vector.model import ClothSpec, InkSpec, Placement, Recipe
+from batik_vector.model import ClothSpec, InkSpec, Placement, Recipe, YardageSpec
 from batik_vector.motif import Core, Dress, Element, Flower, Leaf, Petals, Pistil, Rosette, Treatment
 from batik_vector.outputs import OUTPUTS
 from batik_vector.tiling.cells import Cut, TileSpec
-from batik_vector.tiling.layouts import LAYOUTS, MapSpec, Spot, Term
+from batik_vector.tiling.fitting import Fit
+from batik_vector.tiling.friezes import FRIEZES
+from batik_vector.tiling.groups import GROUPS
+from batik_vector.tiling.layouts import LAYOUTS, Clear, MapSpec, Spot, Term
+from batik_vector.tiling.symmetry import Spread
+from batik_vector.tiling.yardage import Align, Edge
 from batik_vector.units import MM_PER_UNIT, format_mm
 
 PAGE = Path(__file__).resolve().parent.parent / "docs" / "recipe.md"
@@ -65,6 +71,8 @@ def expected(hint: Any) -> str:
     catalogue = next((mark for mark in marks if isinstance(mark, OneOf)), None)
     if catalogue is not None:
         return f"a {catalogue.what}"
+    if any(isinstance(mark, Several) for mark in marks):
+        return "text, or a list of texts"
     if isinstance(base, type) and issubclass(base, enum.Enum):
         return ", ".join(f"`{member.value}`" for member in base)
     length = any(isinstance(mark, LengthUnit) for mark in marks)
@@ -167,6 +175,26 @@ def catalogue(title: str, key: str, classes: Mapping[str, type]) -> Iterator[str
         yield from section(f'"{name}"', cls)
 
 
+def groups_table() -> Iterator[str]:
+    """Yield the table of wallpaper groups."""
+    yield "| group | orbifold | also | cell | copies in the rectangle |"
+    yield "| --- | --- | --- | --- | --- |"
+    for row in GROUPS.values():
+        also = ", ".join(f"`{name}`" for name in row.others)
+        yield f"| `{row.name}` | {row.orbifold} | {also} | {row.kind.value} | {row.copies} |"
+    yield ""
+
+
+def friezes_table() -> Iterator[str]:
+    """Yield the table of frieze groups."""
+    yield "| group | orbifold | also | copies in a period |"
+    yield "| --- | --- | --- | --- |"
+    for row in FRIEZES.values():
+        also = ", ".join(f"`{name}`" for name in row.others)
+        yield f"| `{row.name}` | {row.orbifold} | {also} | {len(row.steps())} |"
+    yield ""
+
+
 def page() -> str:
     """Return the whole page."""
     look = frozenset(field.name for field in dataclasses.fields(Dress))
@@ -175,10 +203,21 @@ def page() -> str:
     lines += section("The recipe", Recipe, 2)
     lines += section("`[tile]`: the repeat", TileSpec, 2)
     lines += words("cut", Cut)
+    lines += section("tile.fit", Fit)
+    lines += ["### Wallpaper groups", "", *groups_table()]
+    lines += section("`[yardage]`: a cloth filled from the tile", YardageSpec, 2)
+    lines += words("edge", Edge)
+    lines += words("align", Align)
+    lines += section("`[[border]]`: bands along the sides of the yardage", BorderSpec, 2)
+    for key, kind in (("corner", Corner), ("facing", Facing), ("ends", Ends)):
+        lines += words(key, kind)
+    lines += section("border.rails", RailSpec)
+    lines += ["### Frieze groups", "", *friezes_table()]
     lines += section("`[cloth]`", ClothSpec, 2)
     lines += section("`[ink.NAME]`", InkSpec, 2)
     lines += words("overlap", Overlap)
     lines += section("`[[place]]`", Placement, 2)
+    lines += words("region", Spread)
     lines += ["## `[motif.NAME]`", "", "`kind` says which of these it is.", ""]
     lines += section('kind = "flower"', Flower)
     for key, part in (("leaf", Leaf), ("petal", Petals), ("pistil", Pistil), ("core", Core)):
@@ -191,6 +230,7 @@ def page() -> str:
     lines += words("fill", FillRule)
     lines += catalogue("Curves", "`kind` of the `curve` of an element", CURVES)
     lines += catalogue("Layouts", "`kind` of the `layout` of a placement", LAYOUTS)
+    lines += words("clear (of a toss)", Clear)
     lines += section("Spots of a free layout, and `pre` and `post` of a map", Spot)
     lines += section("Maps of an ifs layout", MapSpec)
     lines += section("Terms of a map", Term)

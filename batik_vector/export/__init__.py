@@ -3,8 +3,10 @@
     write_artwork(artwork, "kawung.dxf")
     write_artwork(artwork, "kawung.svg", options=SvgOptions(profile=Profile.COMPACT))
 
-A new format is a module with ``render(artwork, options) -> bytes``, an options class in
-:mod:`batik_vector.export.options`, and a line in ``FORMATS``.
+What is drawn is a :class:`~batik_vector.artwork.Page`: an artwork, or metres of cloth that come in pieces.
+
+A new format is a module with ``write(page, sink, options)`` and ``render(page, options) -> bytes``, an
+options class in :mod:`batik_vector.export.options`, and a line in ``FORMATS``.
 """
 
 from __future__ import annotations
@@ -15,7 +17,7 @@ from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 from batik_vector.errors import ExportError, UnknownNameError
 from batik_vector.export.files import write_all_whole, write_whole
@@ -31,7 +33,7 @@ from batik_vector.export.options import (
 )
 
 if TYPE_CHECKING:
-    from batik_vector.artwork import Artwork
+    from batik_vector.artwork import Page
 
 __all__ = [
     "FORMATS",
@@ -48,6 +50,7 @@ __all__ = [
     "render",
     "write_all_whole",
     "write_artwork",
+    "write_page",
     "write_whole",
 ]
 
@@ -64,10 +67,14 @@ class Format:
     says: str
     module: str
 
-    def render(self, artwork: Artwork, options: Any) -> bytes:
-        """Return the artwork as a file of this format."""
-        data: bytes = import_module(self.module).render(artwork, options)
+    def render(self, page: Page, options: Any) -> bytes:
+        """Return the page as a file of this format."""
+        data: bytes = import_module(self.module).render(page, options)
         return data
+
+    def write(self, page: Page, sink: BinaryIO, options: Any) -> None:
+        """Write the page as a file of this format, piece by piece."""
+        import_module(self.module).write(page, sink, options)
 
 
 FORMATS: Mapping[str, Format] = MappingProxyType(
@@ -95,8 +102,8 @@ def format_of(path: str | os.PathLike[str]) -> str:
     raise UnknownNameError(suffix.removeprefix(".") or Path(path).name, list(FORMATS), "format")
 
 
-def render(artwork: Artwork, format: str, options: Any = None) -> bytes:
-    """Return an artwork as the bytes of a file.
+def render(artwork: Page, format: str, options: Any = None) -> bytes:
+    """Return an artwork, or any other page, as the bytes of a file.
 
     Args:
         artwork: what to write, in the normal form.
@@ -107,6 +114,28 @@ def render(artwork: Artwork, format: str, options: Any = None) -> bytes:
         UnknownNameError: where the format is unknown.
         ExportError: where the artwork cannot be written in it, or the options are another format's.
     """
+    chosen, options = _chosen(format, options)
+    return chosen.render(artwork, options)
+
+
+def write_page(page: Page, sink: BinaryIO, format: str, options: Any = None) -> None:
+    """Write a page into a sink, piece by piece: memory does not grow with the page.
+
+    Args:
+        page: what to write, in the normal form.
+        sink: open for writing and seeking.
+        format: a name in ``FORMATS``.
+        options: see :func:`render`.
+
+    Raises:
+        UnknownNameError: where the format is unknown.
+        ExportError: where the page cannot be written in it, or the options are another format's.
+    """
+    chosen, options = _chosen(format, options)
+    chosen.write(page, sink, options)
+
+
+def _chosen(format: str, options: Any) -> tuple[Format, Any]:
     if format not in FORMATS:
         raise UnknownNameError(format, list(FORMATS), "format")
     chosen = FORMATS[format]
@@ -116,13 +145,13 @@ def render(artwork: Artwork, format: str, options: Any = None) -> bytes:
         raise ExportError(
             f"{type(options).__name__} are no options of {format}: expected {chosen.options.__name__}"
         )
-    return chosen.render(artwork, options)
+    return chosen, options
 
 
 def write_artwork(
-    artwork: Artwork, path: str | os.PathLike[str], format: str | None = None, options: Any = None
+    artwork: Page, path: str | os.PathLike[str], format: str | None = None, options: Any = None
 ) -> Path:
-    """Write an artwork to a file, whole or not at all.
+    """Write an artwork, or any other page, to a file, whole or not at all.
 
     Args:
         artwork: what to write, in the normal form.
@@ -137,5 +166,6 @@ def write_artwork(
         UnknownNameError: where the format is unknown.
         ExportError: where the artwork or the file cannot be written.
     """
-    write_whole(path, render(artwork, format or format_of(path), options))
+    chosen, options = _chosen(format or format_of(path), options)
+    write_whole(path, lambda sink: chosen.write(artwork, sink, options))
     return Path(path)

@@ -13,12 +13,15 @@ characters: a longer recipe is left out of an R12 file.
 from __future__ import annotations
 
 import functools
+import io
 from pathlib import Path
+from typing import BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
 
-from batik_vector.artwork import Artwork, Ink
+from batik_vector.artwork import Ink, Page
+from batik_vector.errors import UnsupportedByFormatError
 from batik_vector.export.numbers import WORD, Style, Words, beside, digit_words, digits, headed, put, word
 from batik_vector.export.options import DxfOptions, DxfVersion
 from batik_vector.export.palette import distinct_aci, dxf_names
@@ -33,6 +36,8 @@ DICTIONARY_HANDLE, XRECORD_HANDLE = "80", "81"
 FIRST_LAYER = 0x100
 FIRST_ENTITY = 0x100000
 """Handles: the skeleton's own are below 80, then the provenance, the layers, the entities."""
+LAST_HANDLE = 0xFFFFFF
+"""So that all seeds for further handles have six figures, and the file can be written in one go."""
 VIEW_ASPECT = 1.34
 """Breadth of the skeleton's viewport over its height."""
 R12_PROVENANCE = 15_000
@@ -42,15 +47,26 @@ R12_LEFT_OUT = "BATIK_VECTOR: THE RECIPE IS TOO LONG FOR R12"
 DEFAULTS = DxfOptions()
 
 
-def render(artwork: Artwork, options: DxfOptions = DEFAULTS) -> bytes:
-    """Return an artwork as a DXF file. Coordinates are the artwork's own: the cell's corner is (0, 0).
+def render(page: Page, options: DxfOptions = DEFAULTS) -> bytes:
+    """Return a page as a DXF file; see :func:`write`."""
+    sink = io.BytesIO()
+    write(page, sink, options)
+    return sink.getvalue()
+
+
+def write(page: Page, sink: BinaryIO, options: DxfOptions = DEFAULTS) -> None:
+    """Write a page as a DXF file. Coordinates are the page's own: the cell's corner is (0, 0).
+
+    Args:
+        page: what to write.
+        sink: open for writing and seeking.
+        options: which DXF.
 
     Raises:
-        ExportError: where the artwork holds what cannot be written.
+        ExportError: where the page holds what cannot be written.
     """
-    surface = _R12Surface() if options.version is DxfVersion.R12 else _DxfSurface()
-    walk(artwork, surface)
-    return surface.data
+    surface = _R12Surface(sink) if options.version is DxfVersion.R12 else _DxfSurface(sink)
+    walk(page, surface)
 
 
 @functools.cache
@@ -59,52 +75,68 @@ def _skeleton(name: str) -> str:
 
 
 class _DxfSurface:
-    """Collects entities, then puts them into the R2000 skeleton."""
+    """Puts entities into the R2000 skeleton as they come."""
 
     skeleton = R2000_SKELETON
 
-    def __init__(self) -> None:
-        self._entities: list[bytes] = []
-        self._layers: list[bytes] = []
+    def __init__(self, sink: BinaryIO) -> None:
+        self._sink = sink
         self._handle = FIRST_ENTITY
-        self.data = b""
+        self._after = b""
+        self._seed_at = -1
 
-    def begin(self, artwork: Artwork) -> None:
-        self._artwork = artwork
-        names = dxf_names(layer.ink.name for layer in artwork.layers)
+    def begin(self, page: Page) -> None:
+        self._page = page
+        names = dxf_names(plate.ink.name for plate in page.plates)
         self._names = [name.encode("ascii") for name in names]
-        self._colours = distinct_aci(layer.ink.colour for layer in artwork.layers)
+        self._colours = distinct_aci(plate.ink.colour for plate in page.plates)
+        self._number = -1
+        layers = b"".join(self._layer(number) for number in range(len(names)))
+        out = _skeleton(self.skeleton)
+        for mark, value in self._values().items():
+            out = out.replace(f"@{mark}@", value)
+        data = out.encode("ascii").replace(b"@LAYERS@\n", layers).replace(b"@ENTITIES@\n", b"@ENTITIES@")
+        before, self._after = data.split(b"@ENTITIES@")
+        # How many handles are given out is known at the end only.
+        head, seed, tail = before.partition(b"@HANDSEED@")
+        self._sink.write(head)
+        if seed:
+            self._seed_at = self._sink.tell()
+            self._sink.write(b"%X" % FIRST_ENTITY + tail)
 
     def ink(self, ink: Ink, pen: int) -> None:
-        self._name = self._names[pen - 1]
-        self._layers.append(self._layer(pen))
+        self._number += 1
+        self._name = self._names[self._number]
 
     def areas(self, outlines: Outlines) -> None:
-        self._entities.append(self._polylines(outlines))
         self._handle += len(outlines.closed)
+        if self._handle > LAST_HANDLE:
+            raise UnsupportedByFormatError(
+                f"a DXF of ours holds {LAST_HANDLE - FIRST_ENTITY:,} contours at most: write less cloth in it"
+            )
+        self._sink.write(self._polylines(outlines))
 
     def lines(self, outlines: Outlines) -> None:
         self.areas(outlines)
 
     def end(self) -> None:
-        out = _skeleton(self.skeleton)
-        for mark, value in self._values().items():
-            out = out.replace(f"@{mark}@", value)
-        layers, entities = b"".join(self._layers), b"".join(self._entities)
-        data = out.encode("ascii").replace(b"@LAYERS@\n", layers).replace(b"@ENTITIES@\n", b"@ENTITIES@")
-        before, after = data.split(b"@ENTITIES@")
-        self.data = b"".join((before, entities, after))
+        self._sink.write(self._after)
+        if self._seed_at >= 0:
+            end = self._sink.tell()
+            self._sink.seek(self._seed_at)
+            self._sink.write(b"%X" % self._handle)
+            self._sink.seek(end)
 
-    def _layer(self, pen: int) -> bytes:
-        handle = f"{FIRST_LAYER + pen - 1:X}".encode("ascii")
+    def _layer(self, number: int) -> bytes:
+        handle = f"{FIRST_LAYER + number:X}".encode("ascii")
         return (
             b"  0\nLAYER\n  5\n%b\n330\n1\n100\nAcDbSymbolTableRecord\n100\nAcDbLayerTableRecord\n"
             b"  2\n%b\n 70\n0\n 62\n%d\n  6\nContinuous\n370\n-3\n390\n13\n"
-        ) % (handle, self._name, self._colours[pen - 1])
+        ) % (handle, self._names[number], self._colours[number])
 
     def _polylines(self, outlines: Outlines) -> bytes:
         count = len(outlines.closed)
-        handles = digits(np.arange(self._handle, self._handle + count), base=16)
+        handles = digits(np.arange(self._handle - count, self._handle), base=16)
         heads = beside(
             count,
             b"0\nLWPOLYLINE\n5\n",
@@ -119,28 +151,29 @@ class _DxfSurface:
         return headed(heads, _vertices(outlines, b"", b""), outlines.rings)
 
     def _values(self) -> dict[str, str]:
-        cell, bleed = self._artwork.cell, round(self._artwork.bleed * STEPS_PER_MM)
-        left, right, top = -bleed, cell.columns + bleed, cell.rows + bleed
-        height = max(top + bleed, (right + bleed) / VIEW_ASPECT)
+        cell, margins = self._page.cell, self._page.margins
+        left, bottom = -margins.left, -margins.bottom
+        right, top = cell.columns + margins.right, cell.rows + margins.top
+        height = max(top - bottom, (right - left) / VIEW_ASPECT)
         corners = {
             "LEFT": left,
-            "BOTTOM": left,
+            "BOTTOM": bottom,
             "RIGHT": right,
             "TOP": top,
-            "BLEED": bleed,
-            "MIDDLE_X": cell.columns / 2,
-            "MIDDLE_Y": cell.rows / 2,
+            "BASE_X": margins.left,
+            "BASE_Y": margins.bottom,
+            "MIDDLE_X": (left + right) / 2,
+            "MIDDLE_Y": (bottom + top) / 2,
             "VIEW": height * 1.05,
         }
         return {
             **{mark: repr(round(steps / STEPS_PER_MM, 6)) for mark, steps in corners.items()},
-            "LAYER_COUNT": str(len(self._layers) + 2),
-            "HANDSEED": f"{self._handle:X}",
+            "LAYER_COUNT": str(len(self._names) + 2),
             **self._provenance(),
         }
 
     def _provenance(self) -> dict[str, str]:
-        chunks = ascii_chunks(self._artwork.provenance)
+        chunks = ascii_chunks(self._page.provenance)
         return {"PROVENANCE": "\n".join(f"  1\n{chunk}" for chunk in chunks)}
 
 
@@ -149,10 +182,10 @@ class _R12Surface(_DxfSurface):
 
     skeleton = R12_SKELETON
 
-    def _layer(self, pen: int) -> bytes:
+    def _layer(self, number: int) -> bytes:
         return b"  0\nLAYER\n  2\n%b\n 70\n0\n 62\n%d\n  6\nCONTINUOUS\n" % (
-            self._name,
-            self._colours[pen - 1],
+            self._names[number],
+            self._colours[number],
         )
 
     def _polylines(self, outlines: Outlines) -> bytes:
@@ -169,7 +202,7 @@ class _R12Surface(_DxfSurface):
         )
 
     def _provenance(self) -> dict[str, str]:
-        provenance = self._artwork.provenance
+        provenance = self._page.provenance
         chunks = ascii_chunks(provenance)
         if sum(map(len, chunks)) > R12_PROVENANCE:
             return {"PROVENANCE": f"1000\n{R12_LEFT_OUT}"}

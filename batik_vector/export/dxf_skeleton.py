@@ -42,7 +42,7 @@ CORNERS = {
     "$EXTMAX": ("@RIGHT@", "@TOP@", "0.0"),
     "$LIMMIN": ("@LEFT@", "@BOTTOM@"),
     "$LIMMAX": ("@RIGHT@", "@TOP@"),
-    "$PINSBASE": ("@BLEED@", "@BLEED@", "0.0"),
+    "$PINSBASE": ("@BASE_X@", "@BASE_Y@", "0.0"),
     "$PLIMMIN": ("@LEFT@", "@BOTTOM@"),
     "$PLIMMAX": ("@RIGHT@", "@TOP@"),
 }

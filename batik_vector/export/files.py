@@ -12,13 +12,19 @@ import contextlib
 import os
 import secrets
 import stat
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
+from typing import BinaryIO, TypeAlias
 
 from batik_vector.errors import ExportError
 
+Content: TypeAlias = bytes | Callable[[BinaryIO], object]
+"""What goes into a file: its bytes, or what writes them into a sink, which may be seeked."""
+BUFFER = 1 << 20
+"""Bytes gathered before the system is asked to write them."""
 
-def write_whole(path: str | os.PathLike[str], data: bytes) -> None:
+
+def write_whole(path: str | os.PathLike[str], data: Content) -> None:
     """Write a file, or leave what was there.
 
     Raises:
@@ -27,8 +33,10 @@ def write_whole(path: str | os.PathLike[str], data: bytes) -> None:
     write_all_whole([(path, data)])
 
 
-def write_all_whole(files: Iterable[tuple[str | os.PathLike[str], bytes]]) -> None:
+def write_all_whole(files: Iterable[tuple[str | os.PathLike[str], Content]]) -> None:
     """Write several files, or leave what was there in place of each.
+
+    Whatever one that writes its own content raises leaves everything as it was, and goes on to the caller.
 
     Raises:
         ExportError: naming the path that failed and the reason.
@@ -72,13 +80,17 @@ class _Batch:
         self._backups: dict[Path, Path] = {}
         self._fresh: set[Path] = set()
 
-    def write(self, path: Path, data: bytes) -> None:
+    def write(self, path: Path, data: Content) -> None:
         """Write the neighbour of a path."""
         mode = _mode(path)
         temp = self._temps[path] = _neighbour(path)
         handle = os.open(temp, os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0), 0o666)
         try:
-            _write(handle, data)
+            if isinstance(data, bytes):
+                _write(handle, data)
+            else:
+                with open(handle, "wb", buffering=BUFFER, closefd=False) as sink:
+                    data(sink)
             os.fsync(handle)
         finally:
             os.close(handle)

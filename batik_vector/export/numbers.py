@@ -19,9 +19,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from batik_vector.errors import ExportError
+from batik_vector.outlines import Steps
 
-Steps: TypeAlias = NDArray[np.int64]
-"""Coordinates in whole grid steps of 1 µm."""
 Words: TypeAlias = NDArray[np.uint32]
 """Little-endian words of four characters each, NUL where there is none."""
 

@@ -1,25 +1,26 @@
 """PDF: 1:1 pages with trim and bleed boxes, one layer per ink, vectors only.
 
 Coordinates are whole micrometres under a single matrix, so the stream is digits and letters and is
-written as fast as text. Layers are optional-content groups (ISO 32000-1, 8.11), which PDF 1.5 has; the
-page is 1.6 for ``UserUnit``, without which no side may pass 14,400 units = 5.08 m. Nothing in the file
-changes from run to run: no dates, and the ID is a hash of the content.
+written as fast as text, compressed as it comes. Layers are optional-content groups (ISO 32000-1, 8.11),
+which PDF 1.5 has; the page is 1.6 for ``UserUnit``, without which no side may pass 14,400 units = 5.08 m.
+Nothing in the file changes from run to run: no dates, and the ID is a hash of the content.
 
-The media box is the cell grown by the bleed; the trim box is the cell.
+The media box is the cell grown by the page's margins; the bleed box is the cell grown by the bleed; the trim
+box is the cell.
 """
 
 from __future__ import annotations
 
 import hashlib
+import io
 import math
 import zlib
-from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import BinaryIO
 from xml.sax.saxutils import escape
 
 import numpy as np
 
-from batik_vector.artwork import Artwork, Ink
+from batik_vector.artwork import Ink, Page, Plate
 from batik_vector.export.numbers import WORD, Style, Words, digit_words, put, text, word
 from batik_vector.export.options import Curves, PdfInks, PdfOptions
 from batik_vector.export.palette import rgb, xml_label
@@ -33,27 +34,50 @@ LONGEST_SIDE = 14_400
 """Units in a side at most (ISO 32000-1, annex C); ``UserUnit`` makes the unit larger."""
 COMPRESSION = 1
 """Level 6 takes six times as long and saves a sixth."""
+BLOCK = 1 << 20
+"""Bytes compressed at a time."""
+HELD_BACK = 1 << 24
+"""Compressed bytes up to which a content stream is kept until its length is known; a longer one is written as
+it comes, and its length behind it."""
+CONTENT = 4
+"""Number of the content stream's object."""
 
 DEFAULTS = PdfOptions()
 
 
-def render(artwork: Artwork, options: PdfOptions = DEFAULTS) -> bytes:
-    """Return an artwork as a PDF file of one page.
+def render(page: Page, options: PdfOptions = DEFAULTS) -> bytes:
+    """Return a page as a PDF file; see :func:`write`."""
+    sink = io.BytesIO()
+    write(page, sink, options)
+    return sink.getvalue()
+
+
+def write(page: Page, sink: BinaryIO, options: PdfOptions = DEFAULTS) -> None:
+    """Write a page as a PDF file of one page.
 
     Raises:
-        ExportError: where the artwork holds what cannot be written.
+        ExportError: where the page holds what cannot be written.
     """
-    surface = _PdfSurface(options)
-    walk(artwork, surface)
-    return surface.data
+    walk(page, _PdfSurface(sink, options))
 
 
-def path_operators(drawn: Strokes, paint: str) -> bytes:
+def units_per_user_unit(page: Page) -> int:
+    """Return by what ``UserUnit`` a page's units are larger than points: 1 up to 5.08 m, and a warning else.
+
+    Some programs pass ``UserUnit`` over, and show the page so many times too small.
+    """
+    margins = page.margins
+    sides = (page.cell.columns + margins.left + margins.right, page.cell.rows + margins.bottom + margins.top)
+    return max(1, math.ceil(max(sides) * POINTS_PER_STEP / LONGEST_SIDE))
+
+
+def path_operators(drawn: Strokes, paint: str, unfinished: bool = False) -> bytes:
     """Return strokes as path operators, coordinates in whole steps, each mark painted by itself.
 
     Args:
         drawn: the strokes.
         paint: the operator that paints a path: ``f*``, ``S``.
+        unfinished: the last mark goes on, and is not painted yet.
     """
     points = drawn.points
     size = digit_words(points)
@@ -64,130 +88,230 @@ def path_operators(drawn: Strokes, paint: str) -> bytes:
     letters[[MOVE, LINE, CONTROL, PULL, CURVE]] = [word(c) for c in ("m\n", "l\n", "\0", "\0", "c\n")]
     rows[:, at] = letters[drawn.kinds]
     rows[drawn.last[drawn.closed], at] += word("\0\0h\n")
-    rows[drawn.last[drawn.marks[1:] - 1], at + 1] = word(f"{paint}\n")
+    painted = drawn.marks[1:-1] if unfinished else drawn.marks[1:]
+    rows[drawn.last[painted - 1], at + 1] = word(f"{paint}\n")
     return text(rows)
 
 
+class _File:
+    """The file as it grows: numbered objects, and at last their table."""
+
+    def __init__(self, sink: BinaryIO) -> None:
+        self._sink = sink
+        self._starts: dict[int, int] = {}
+        self._at = 0
+        self._hash = hashlib.sha256()
+        self.put(b"%PDF-1.6\n%\xe2\xe3\xcf\xd3\n")
+
+    def put(self, data: bytes) -> None:
+        self._sink.write(data)
+        self._hash.update(data)
+        self._at += len(data)
+
+    def open(self, number: int) -> None:
+        self._starts[number] = self._at
+        self.put(b"%d 0 obj\n" % number)
+
+    def close(self) -> None:
+        self.put(b"\nendobj\n")
+
+    def whole(self, number: int, body: bytes) -> None:
+        self.open(number)
+        self.put(body)
+        self.close()
+
+    def end(self) -> None:
+        table, count = self._at, len(self._starts) + 1
+        self.put(f"xref\n0 {count}\n0000000000 65535 f \n".encode("ascii"))
+        starts = (self._starts[number] for number in range(1, count))
+        self.put("".join(f"{start:010d} 00000 n \n" for start in starts).encode("ascii"))
+        mark = self._hash.hexdigest()[:32]
+        self.put(
+            f"trailer\n<< /Size {count} /Root 1 0 R /Info 6 0 R /ID [<{mark}> <{mark}>] >>\n".encode("ascii")
+        )
+        self.put(f"startxref\n{table}\n%%EOF\n".encode("ascii"))
+
+
+class _Stream:
+    """The content stream: compressed in blocks, held back while it is short."""
+
+    def __init__(self, file: _File, length_number: int) -> None:
+        self._file, self._length_number = file, length_number
+        self._machine = zlib.compressobj(COMPRESSION)
+        self._raw = bytearray()
+        self._held: list[bytes] = []
+        self._length = 0
+        self._written = False
+
+    def put(self, data: bytes) -> None:
+        self._raw += data
+        while len(self._raw) >= BLOCK:
+            self._keep(self._machine.compress(bytes(self._raw[:BLOCK])))
+            del self._raw[:BLOCK]
+
+    def _keep(self, packed: bytes) -> None:
+        self._length += len(packed)
+        self._held.append(packed)
+        if self._length > HELD_BACK:
+            if not self._written:
+                self._head(b"%d 0 R" % self._length_number)
+            self._release()
+
+    def _head(self, length: bytes) -> None:
+        self._file.open(CONTENT)
+        self._file.put(b"<< /Length %b /Filter /FlateDecode >>\nstream\n" % length)
+        self._written = True
+
+    def _release(self) -> None:
+        for packed in self._held:
+            self._file.put(packed)
+        self._held.clear()
+
+    def end(self) -> bool:
+        """Close the stream; return whether its length is still to be written, as an object of its own."""
+        self._keep(self._machine.compress(bytes(self._raw)) + self._machine.flush())
+        behind = self._written
+        if not behind:
+            self._head(b"%d" % self._length)
+        self._release()
+        self._file.put(b"\nendstream")
+        self._file.close()
+        if behind:
+            self._file.whole(self._length_number, b"%d" % self._length)
+        return behind
+
+
 class _PdfSurface:
-    """Collects the content stream, then builds the file around it."""
+    """Writes the objects around the content stream, and the stream as it comes."""
 
-    def __init__(self, options: PdfOptions) -> None:
+    def __init__(self, sink: BinaryIO, options: PdfOptions) -> None:
+        self._sink = sink
         self._options = options
-        self._content: list[bytes] = []
-        self._layers: list[str] = []
-        self._spots: list[tuple[str, str]] = []
-        self.data = b""
+        self._layer_count = 0
+        self._spot_count = 0
 
-    def begin(self, artwork: Artwork) -> None:
-        self._artwork = artwork
-        self._bleed = round(artwork.bleed * STEPS_PER_MM)
-        self._size = (artwork.cell.columns + 2 * self._bleed, artwork.cell.rows + 2 * self._bleed)
-        chosen = self._options.curve_tolerance or artwork.tolerance
+    def begin(self, page: Page) -> None:
+        self._page = _Page(page, self._options)
+        chosen = self._options.curve_tolerance or page.tolerance
         self._tolerance = chosen if self._options.curves is Curves.BEZIER else None
-        self._unit = max(1, math.ceil(max(self._size) * POINTS_PER_STEP / LONGEST_SIDE))
-        scale = _number(POINTS_PER_STEP / self._unit, 16)
-        self._content.append(f"{scale} 0 0 {scale} 0 0 cm\n1 J 1 j\n".encode("ascii"))
+        self._file = _File(self._sink)
+        for number, body in enumerate(self._page.before(), start=1):
+            self._file.whole(number, body)
+        self._content = _Stream(self._file, self._page.length_number)
+        scale = _number(POINTS_PER_STEP / self._page.unit, 16)
+        self._content.put(f"{scale} 0 0 {scale} 0 0 cm\n1 J 1 j\n".encode("ascii"))
         if self._options.cloth:
-            self._layer("cloth")
+            self._layer()
             # The cloth is no ink: it has no plate, even where inks are separations.
-            fill, _ = _device_colour(artwork.cloth)
-            self._content.append(f"{fill}0 0 {self._size[0]} {self._size[1]} re\nf\n".encode("ascii"))
+            fill, _ = _device_colour(page.cloth)
+            self._content.put(b"%b0 0 %d %d re\nf\n" % (fill.encode("ascii"), *self._page.size))
 
     def ink(self, ink: Ink, pen: int) -> None:
         self._ink = ink
-        self._layer(ink.name)
+        self._layer()
+        self._coloured = [False, False]
         if self._options.inks is PdfInks.SPOT:
-            name = f"S{len(self._spots)}"
-            self._spots.append((ink.name, ink.colour))
+            name = f"S{self._spot_count}"
+            self._spot_count += 1
             self._colours = (f"/{name} cs 1 scn\n", f"/{name} CS 1 SCN\n")
         else:
             self._colours = _device_colour(ink.colour)
 
     def areas(self, outlines: Outlines) -> None:
-        self._content.append(self._colours[0].encode("ascii"))
-        self._content.append(path_operators(self._drawn(outlines), "f*"))
+        if not self._coloured[0]:
+            self._coloured[0] = True
+            self._content.put(self._colours[0].encode("ascii"))
+        self._content.put(path_operators(self._drawn(outlines), "f*", outlines.unfinished))
 
     def lines(self, outlines: Outlines) -> None:
-        width = round(self._ink.width * STEPS_PER_MM)
-        self._content.append(f"{self._colours[1]}{width} w\n".encode("ascii"))
-        self._content.append(path_operators(self._drawn(outlines), "S"))
+        if not self._coloured[1]:
+            self._coloured[1] = True
+            width = round(self._ink.width * STEPS_PER_MM)
+            self._content.put(f"{self._colours[1]}{width} w\n".encode("ascii"))
+        self._content.put(path_operators(self._drawn(outlines), "S", outlines.unfinished))
 
     def end(self) -> None:
-        if self._layers:
-            self._content.append(b"EMC\n")
-        self.data = _file(
-            _Page(self._artwork, self._size, self._bleed, self._unit, self._layers, self._spots),
-            b"".join(self._content),
-        )
+        if self._layer_count:
+            self._content.put(b"EMC\n")
+        self._content.end()
+        for number, body in enumerate(self._page.behind(), start=CONTENT + 1):
+            self._file.whole(number, body)
+        self._file.end()
 
     def _drawn(self, outlines: Outlines) -> Strokes:
-        return strokes(outlines.moved(self._bleed, self._bleed), self._tolerance)
+        margins = self._page.page.margins
+        return strokes(outlines.moved(margins.left, margins.bottom), self._tolerance)
 
-    def _layer(self, name: str) -> None:
-        if self._layers:
-            self._content.append(b"EMC\n")
-        self._content.append(f"/OC /L{len(self._layers)} BDC\n".encode("ascii"))
-        self._layers.append(name)
+    def _layer(self) -> None:
+        if self._layer_count:
+            self._content.put(b"EMC\n")
+        self._content.put(f"/OC /L{self._layer_count} BDC\n".encode("ascii"))
+        self._layer_count += 1
 
 
-@dataclass(frozen=True)
 class _Page:
     """All of the file but its drawing."""
 
-    artwork: Artwork
-    size: tuple[int, int]
-    bleed: int
-    unit: int
-    layers: Sequence[str]
-    spots: Sequence[tuple[str, str]]
+    def __init__(self, page: Page, options: PdfOptions) -> None:
+        self.page = page
+        margins = page.margins
+        self.size = (
+            page.cell.columns + margins.left + margins.right,
+            page.cell.rows + margins.bottom + margins.top,
+        )
+        self.unit = units_per_user_unit(page)
+        self.layers = ["cloth"] * options.cloth + [plate.ink.name for plate in page.plates]
+        spot = options.inks is PdfInks.SPOT
+        self.spots = [_separation(plate) for plate in page.plates] if spot else []
+        first = CONTENT + 3
+        self.groups = range(first, first + len(self.layers))
+        self.spaces = range(self.groups.stop, self.groups.stop + len(self.spots))
+        self.length_number = self.spaces.stop
+
+    def before(self) -> list[bytes]:
+        """Return the objects that come before the drawing."""
+        listed = " ".join(f"{number} 0 R" for number in self.groups)
+        order = f"/OCProperties << /OCGs [{listed}] /D << /Order [{listed}] /ON [{listed}] >> >>"
+        catalog = f"<< /Type /Catalog /Pages 2 0 R /Metadata 5 0 R {order if self.layers else ''} >>"
+        return [
+            catalog.encode("ascii"),
+            b"<< /Type /Pages /Kids [3 0 R] /Count 1 >>",
+            _page_object(self),
+        ]
+
+    def behind(self) -> list[bytes]:
+        """Return the objects that come behind it."""
+        packet = _xmp(self.page)
+        return [
+            b"<< /Type /Metadata /Subtype /XML /Length %d >>\nstream\n%b\nendstream" % (len(packet), packet),
+            f"<< /Title {_text(self.page.title)} /Producer {_text(_producer(self.page))} >>".encode("ascii"),
+            *(f"<< /Type /OCG /Name {_text(name)} >>".encode("ascii") for name in self.layers),
+            *self.spots,
+        ]
 
 
-def _file(page: _Page, content: bytes) -> bytes:
-    """Return the whole file: numbered objects, cross-reference table, trailer."""
-    stream = zlib.compress(content, COMPRESSION)
-    packet = _xmp(page.artwork)
-    groups = range(7, 7 + len(page.layers))
-    spots = range(groups.stop, groups.stop + len(page.spots))
-    listed = " ".join(f"{number} 0 R" for number in groups)
-    order = f"/OCProperties << /OCGs [{listed}] /D << /Order [{listed}] /ON [{listed}] >> >>"
-    bodies: list[bytes] = [
-        f"<< /Type /Catalog /Pages 2 0 R /Metadata 5 0 R {order if page.layers else ''} >>".encode("ascii"),
-        b"<< /Type /Pages /Kids [3 0 R] /Count 1 >>",
-        _page_object(page, groups, spots),
-        b"<< /Length %d /Filter /FlateDecode >>\nstream\n%b\nendstream" % (len(stream), stream),
-        b"<< /Type /Metadata /Subtype /XML /Length %d >>\nstream\n%b\nendstream" % (len(packet), packet),
-        f"<< /Title {_text(page.artwork.title)} /Producer {_text(_producer(page.artwork))} >>".encode(
-            "ascii"
-        ),
-        *(f"<< /Type /OCG /Name {_text(name)} >>".encode("ascii") for name in page.layers),
-        *(_separation(name, colour) for name, colour in page.spots),
-    ]
-    out = bytearray(b"%PDF-1.6\n%\xe2\xe3\xcf\xd3\n")
-    starts = []
-    for number, body in enumerate(bodies, start=1):
-        starts.append(len(out))
-        out += b"%d 0 obj\n%b\nendobj\n" % (number, body)
-    table = len(out)
-    out += f"xref\n0 {len(bodies) + 1}\n0000000000 65535 f \n".encode("ascii")
-    out += "".join(f"{start:010d} 00000 n \n" for start in starts).encode("ascii")
-    mark = hashlib.sha256(out).hexdigest()[:32]
-    out += f"trailer\n<< /Size {len(bodies) + 1} /Root 1 0 R /Info 6 0 R /ID [<{mark}> <{mark}>] >>\n".encode(
-        "ascii"
+def _page_object(page: _Page) -> bytes:
+    cell, margins = page.page.cell, page.page.margins
+    bleed = round(page.page.bleed * STEPS_PER_MM)
+
+    def box(left: int, bottom: int, right: int, top: int) -> str:
+        return "[" + " ".join(_points(steps, page.unit) for steps in (left, bottom, right, top)) + "]"
+
+    x, y = margins.left, margins.bottom
+    whole = box(0, 0, *page.size)
+    inked = box(
+        max(x - bleed, 0),
+        max(y - bleed, 0),
+        min(x + cell.columns + bleed, page.size[0]),
+        min(y + cell.rows + bleed, page.size[1]),
     )
-    out += f"startxref\n{table}\n%%EOF\n".encode("ascii")
-    return bytes(out)
-
-
-def _page_object(page: _Page, groups: range, spots: range) -> bytes:
-    width, height, edge = (_points(steps, page.unit) for steps in (*page.size, page.bleed))
-    right, top = (_points(steps - page.bleed, page.unit) for steps in page.size)
-    whole = f"[0 0 {width} {height}]"
-    properties = " ".join(f"/L{i} {number} 0 R" for i, number in enumerate(groups))
-    spaces = " ".join(f"/S{i} {number} 0 R" for i, number in enumerate(spots))
+    trim = box(x, y, x + cell.columns, y + cell.rows)
+    properties = " ".join(f"/L{i} {number} 0 R" for i, number in enumerate(page.groups))
+    spaces = " ".join(f"/S{i} {number} 0 R" for i, number in enumerate(page.spaces))
     unit = f"/UserUnit {page.unit} " if page.unit > 1 else ""
     return (
-        f"<< /Type /Page /Parent 2 0 R /MediaBox {whole} /CropBox {whole} /BleedBox {whole} "
-        f"/TrimBox [{edge} {edge} {right} {top}] {unit}/Contents 4 0 R "
+        f"<< /Type /Page /Parent 2 0 R /MediaBox {whole} /CropBox {whole} /BleedBox {inked} "
+        f"/TrimBox {trim} {unit}/Contents {CONTENT} 0 R "
         f"/Resources << /Properties << {properties} >> /ColorSpace << {spaces} >> >> >>"
     ).encode("ascii")
 
@@ -203,12 +327,15 @@ def _device_colour(colour: str) -> tuple[str, str]:
     return f"{parts} rg\n", f"{parts} RG\n"
 
 
-def _separation(name: str, colour: str) -> bytes:
-    """Return the colour space of a spot ink: no tint is paper white, full tint its screen colour."""
-    full = " ".join(_number(part / 255, 5) for part in rgb(colour))
+def _separation(plate: Plate) -> bytes:
+    """Return the colour space of a spot ink: no tint is paper white, full tint its screen colour.
+
+    Two names mean every plate and no plate: guides stand on every plate, so that plates can be registered.
+    """
+    full = " ".join(_number(part / 255, 5) for part in rgb(plate.ink.colour))
     tint = f"<< /FunctionType 2 /Domain [0 1] /C0 [1 1 1] /C1 [{full}] /N 1 >>"
-    if name in ("All", "None"):
-        # These two names mean every plate and no plate.
+    name = "All" if plate.guide else plate.ink.name
+    if name in ("All", "None") and not plate.guide:
         name = f"{name} ink"
     return f"[/Separation /{_name(name)} /DeviceRGB {tint}]".encode("ascii")
 
@@ -230,14 +357,14 @@ def _name(words: str) -> str:
     return "".join(chr(byte) if chr(byte).isalnum() and byte < 128 else f"#{byte:02x}" for byte in raw)
 
 
-def _producer(artwork: Artwork) -> str:
-    return f"batik_vector {artwork.provenance.version}".rstrip()
+def _producer(page: Page) -> str:
+    return f"batik_vector {page.provenance.version}".rstrip()
 
 
-def _xmp(artwork: Artwork) -> bytes:
+def _xmp(page: Page) -> bytes:
     """Return the metadata packet (ISO 16684-1) with recipe, seed and version in our namespace."""
     fields = [
-        f"<batik:{name}>{_escaped(value)}</batik:{name}>" for name, value in xml_fields(artwork.provenance)
+        f"<batik:{name}>{_escaped(value)}</batik:{name}>" for name, value in xml_fields(page.provenance)
     ]
     packet = (
         '<?xpacket begin="\ufeff" id="W5M0MpCehiHzreSzNTczkc9d"?>\n'
@@ -247,8 +374,8 @@ def _xmp(artwork: Artwork) -> bytes:
         f'xmlns:pdf="http://ns.adobe.com/pdf/1.3/" xmlns:batik="{NAMESPACE}">\n'
         "<dc:format>application/pdf</dc:format>\n"
         '<dc:title><rdf:Alt><rdf:li xml:lang="x-default">'
-        f"{_escaped(xml_label(artwork.title))}</rdf:li></rdf:Alt></dc:title>\n"
-        f"<pdf:Producer>{_escaped(xml_label(_producer(artwork)))}</pdf:Producer>\n"
+        f"{_escaped(xml_label(page.title))}</rdf:li></rdf:Alt></dc:title>\n"
+        f"<pdf:Producer>{_escaped(xml_label(_producer(page)))}</pdf:Producer>\n"
         + "\n".join(fields)
         + '\n</rdf:Description>\n</rdf:RDF>\n</x:xmpmeta>\n<?xpacket end="r"?>'
     )

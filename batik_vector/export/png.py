@@ -1,37 +1,45 @@
 """PNG: a preview for the screen, drawn from our own SVG by cairosvg.
 
-It shows the cell without its bleed, so previews tile as the cloth does. The file says its resolution
-(pHYs) and carries recipe, seed and version (tEXt); it holds no time.
+It shows a tile without its bleed, so previews tile as the cloth does; a page that comes in pieces is shown
+with its margins. The file says its resolution (pHYs) and carries recipe, seed and version (tEXt); it holds
+no time.
 """
 
 from __future__ import annotations
 
 import zlib
 from dataclasses import replace
+from typing import BinaryIO
 
-from batik_vector.artwork import Artwork
+from batik_vector.artwork import Artwork, Page
 from batik_vector.errors import UnsupportedByFormatError
 from batik_vector.export import svg
 from batik_vector.export.options import PngOptions, Profile, SvgOptions
 from batik_vector.export.provenance import PNG_KEYWORD, ascii_line
+from batik_vector.units import STEPS_PER_MM
 
 MAX_PIXELS = 120_000_000
 """Four bytes each in memory: half a gigabyte."""
 MAX_SIDE = 32_767
 """The longest side that cairo draws."""
+MAX_VERTICES = 5_000_000
+"""Vertices that are drawn at most: the drawing is held in memory as text and as a tree."""
 AFTER_HEADER = 8 + 25
 """Bytes of the signature and the IHDR chunk, behind which other chunks may stand."""
 
 DEFAULTS = PngOptions()
 
 
-def pixel_size(artwork: Artwork, dpi: float) -> tuple[int, int]:
-    """Return how many pixels wide and high the cell is.
+def pixel_size(page: Page, dpi: float) -> tuple[int, int]:
+    """Return how many pixels wide and high the picture is.
 
     Raises:
         UnsupportedByFormatError: where that is more than can be drawn, with the estimate.
     """
-    width, height = (max(1, round(side / 25.4 * dpi)) for side in (artwork.cell.width, artwork.cell.height))
+    margins = _shown(page).margins
+    columns = page.cell.columns + margins.left + margins.right
+    rows = page.cell.rows + margins.bottom + margins.top
+    width, height = (max(1, round(side / STEPS_PER_MM / 25.4 * dpi)) for side in (columns, rows))
     if width * height > MAX_PIXELS or max(width, height) > MAX_SIDE:
         most = min(dpi * (MAX_PIXELS / (width * height)) ** 0.5, dpi * MAX_SIDE / max(width, height))
         raise UnsupportedByFormatError(
@@ -41,16 +49,28 @@ def pixel_size(artwork: Artwork, dpi: float) -> tuple[int, int]:
     return width, height
 
 
-def render(artwork: Artwork, options: PngOptions = DEFAULTS) -> bytes:
-    """Return a picture of the artwork's cell as a PNG file.
+def _shown(page: Page) -> Page:
+    return replace(page, bleed=0.0) if isinstance(page, Artwork) else page
+
+
+def write(page: Page, sink: BinaryIO, options: PngOptions = DEFAULTS) -> None:
+    """Write a picture of a page as a PNG file; see :func:`render`."""
+    sink.write(render(page, options))
+
+
+def render(page: Page, options: PngOptions = DEFAULTS) -> bytes:
+    """Return a picture of a page as a PNG file.
 
     Raises:
-        ExportError: where the artwork holds what cannot be written, or would have too many pixels.
+        ExportError: where the page holds what cannot be written, or would have too many pixels or vertices.
     """
-    width, height = pixel_size(artwork, options.dpi)
-    drawing = svg.render(
-        replace(artwork, bleed=0.0), SvgOptions(profile=Profile.COMPACT, cloth=options.cloth)
-    )
+    width, height = pixel_size(page, options.dpi)
+    if page.vertex_count > MAX_VERTICES:
+        raise UnsupportedByFormatError(
+            f"a preview of about {page.vertex_count:,} vertices, past the limit of {MAX_VERTICES:,}: "
+            "show less cloth, or the tile"
+        )
+    drawing = svg.render(_shown(page), SvgOptions(profile=Profile.COMPACT, cloth=options.cloth))
     # Sides are rounded to whole pixels each by itself, and the picture fills them.
     drawing = drawing.replace(b" viewBox=", b' preserveAspectRatio="none" viewBox=', 1)
     import cairosvg
@@ -58,7 +78,7 @@ def render(artwork: Artwork, options: PngOptions = DEFAULTS) -> bytes:
     data: bytes = cairosvg.svg2png(bytestring=drawing, output_width=width, output_height=height)
     per_metre = round(options.dpi / 0.0254).to_bytes(4, "big")
     chunks = _chunk(b"pHYs", per_metre + per_metre + b"\1")
-    chunks += _chunk(b"tEXt", PNG_KEYWORD + b"\0" + ascii_line(artwork.provenance).encode("ascii"))
+    chunks += _chunk(b"tEXt", PNG_KEYWORD + b"\0" + ascii_line(page.provenance).encode("ascii"))
     return data[:AFTER_HEADER] + chunks + data[AFTER_HEADER:]
 
 

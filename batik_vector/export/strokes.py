@@ -7,8 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from batik_vector.export.numbers import Steps
-from batik_vector.export.walk import Offsets, Outlines
+from batik_vector.outlines import Offsets, Outlines, Steps
 from batik_vector.units import STEPS_PER_MM
 
 MOVE, LINE, CONTROL, PULL, CURVE = range(5)

@@ -5,19 +5,23 @@ a viewBox in mm; layers as direct children of the root, with Inkscape's group mo
 letters and digits for Illustrator; the label begins with the pen's number, as AxiDraw and vpype read it;
 absolute coordinates on whole micrometres; no transforms, styles, references or clips.
 
-The page is the cell, grown by the bleed on every side.
+The page is the cell, grown by the page's margins. svgwrite makes the furniture: root, metadata and
+layers; the paths are put between as they come.
 """
 
 from __future__ import annotations
 
+import io
+import re
 import xml.etree.ElementTree as ET
-from dataclasses import replace
+from collections.abc import Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import Any, BinaryIO
 
 import numpy as np
+from numpy.typing import NDArray
 
-from batik_vector.artwork import Artwork, Ink, Overlap
+from batik_vector.artwork import Ink, Overlap, Page, Plate
 from batik_vector.export.numbers import WORD, Style, Words, digit_words, put, text, word
 from batik_vector.export.options import Curves, Profile, SvgOptions
 from batik_vector.export.palette import Ids, hex_colour, xml_label
@@ -26,9 +30,6 @@ from batik_vector.export.strokes import CONTROL, CURVE, LINE, MOVE, Strokes, str
 from batik_vector.export.walk import Outlines, walk
 from batik_vector.units import STEPS_PER_MM, format_mm
 
-if TYPE_CHECKING:
-    from svgwrite.container import Group
-
 INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"
 SODIPODI = "http://sodipodi.sourceforge.net/DTD/sodipodi-0.dtd"
 
@@ -36,23 +37,35 @@ PATH_POINTS = 400_000
 """Points in one path at most. A point takes up to 24 characters, and libxml2, which many readers use,
 refuses an attribute longer than 10 million."""
 
+PLACE = "\0"
+"""Stands on both sides of the name of a place; XML cannot hold it, so nothing else of a page does."""
+HOLE = "place"
+PATH = '<path d="'
+NAMED_VIEW = {"id": "namedview", "inkscape:document-units": "mm", "units": "mm"}
+"""Tells Inkscape to show millimetres on its rulers."""
+
 DEFAULTS = SvgOptions()
 
 
-def render(artwork: Artwork, options: SvgOptions = DEFAULTS) -> bytes:
-    """Return an artwork as an SVG file.
+def render(page: Page, options: SvgOptions = DEFAULTS) -> bytes:
+    """Return a page as an SVG file; see :func:`write`."""
+    sink = io.BytesIO()
+    write(page, sink, options)
+    return sink.getvalue()
+
+
+def write(page: Page, sink: BinaryIO, options: SvgOptions = DEFAULTS) -> None:
+    """Write a page as an SVG file.
 
     Raises:
-        ExportError: where the artwork holds what cannot be written.
+        ExportError: where the page holds what cannot be written.
     """
-    surface = _SvgSurface(options)
-    walk(artwork, surface)
-    return surface.data
+    walk(page, _SvgSurface(sink, options))
 
 
-def svg_text(artwork: Artwork, options: SvgOptions = DEFAULTS) -> str:
-    """Return an artwork as SVG text; see :func:`render`."""
-    return render(artwork, options).decode("utf-8")
+def svg_text(page: Page, options: SvgOptions = DEFAULTS) -> str:
+    """Return a page as SVG text; see :func:`render`."""
+    return render(page, options).decode("utf-8")
 
 
 def path_data(drawn: Strokes, split: bool) -> list[str]:
@@ -90,143 +103,210 @@ def _leads(drawn: Strokes, split: bool) -> Words:
 
 
 class _SvgSurface:
-    """Builds the tree of the file."""
+    """Puts paths into the furniture as they come."""
 
-    def __init__(self, options: SvgOptions) -> None:
+    def __init__(self, sink: BinaryIO, options: SvgOptions) -> None:
+        self._sink = sink
         self._options = options
+        self._compact = options.profile is Profile.COMPACT
         self._ids = Ids()
-        self.data = b""
 
-    def begin(self, artwork: Artwork) -> None:
-        import svgwrite
-
-        self._bleed = round(artwork.bleed * STEPS_PER_MM)
-        self._columns = artwork.cell.columns + 2 * self._bleed
-        self._rows = artwork.cell.rows + 2 * self._bleed
-        width, height = format_mm(self._columns / STEPS_PER_MM), format_mm(self._rows / STEPS_PER_MM)
-        chosen = self._options.curve_tolerance or artwork.tolerance
+    def begin(self, page: Page) -> None:
+        self._page = page
+        self._rows = page.cell.rows + page.margins.bottom + page.margins.top
+        chosen = self._options.curve_tolerance or page.tolerance
         self._tolerance = chosen if self._options.curves is Curves.BEZIER else None
-        self._page = svgwrite.Drawing(
-            size=(f"{width}mm", f"{height}mm"), viewBox=f"0 0 {width} {height}", debug=False
-        )
-        self._page["xmlns:inkscape"] = INKSCAPE
-        self._page["xmlns:sodipodi"] = SODIPODI
-        self._page.set_desc(title=xml_label(artwork.title))
-        self._page.set_metadata(_metadata(artwork))
-        self._page.add(_NamedView())
+        # Words, then the name of a place, then words and so on.
+        self._furniture = iter(furniture(page, self._options).split(PLACE))
+        self._number = -1
+        self._kind = ""
+        self._path_end = ""
         if self._options.cloth:
-            self._layer("%cloth", "cloth", "cloth")
-            self._group["fill"] = hex_colour(artwork.cloth)
-            self._path(f"M0 0 {width} 0 {width} {height} 0 {height}Z")
+            self._id("cloth", "cloth")
 
     def ink(self, ink: Ink, pen: int) -> None:
-        self._ink = ink
-        self._layer(f"{pen} {xml_label(ink.name)}", ink.name, "ink")
+        self._number += 1
+        self._id(ink.name, "ink")
 
     def areas(self, outlines: Outlines) -> None:
-        # Marks laid over one another in one path would cut each other out under the even-odd rule.
-        compact = self._options.profile is Profile.COMPACT
-        rule = "nonzero" if compact and self._ink.overlap is Overlap.OVERLAY else "evenodd"
-        self._style = {"fill": hex_colour(self._ink.colour), "fill-rule": rule}
-        self._group.attribs.update(self._style)
-        self._draw(outlines)
+        self._draw("areas", outlines)
 
     def lines(self, outlines: Outlines) -> None:
-        style = {
-            "fill": "none",
-            "stroke": hex_colour(self._ink.colour),
-            "stroke-width": format_mm(self._ink.width),
-            "stroke-linecap": "round",
-            "stroke-linejoin": "round",
-        }
-        if self._group.elements:
-            self._part()
-        self._group.attribs.update(style)
-        self._draw(outlines)
+        self._draw("lines", outlines)
 
     def end(self) -> None:
-        tree = self._page.get_xml()
-        ET.indent(tree, space="")
-        body = ET.tostring(tree, encoding="unicode")
-        # Readers turn a bare carriage return into a line feed.
-        body = body.replace("\r", "&#13;")
-        self.data = f'<?xml version="1.0" encoding="UTF-8"?>\n{body}\n'.encode()
+        self._go_to("")
 
-    def _layer(self, label: str, name: str, fallback: str) -> None:
-        from svgwrite.container import Group
+    def _put(self, words: str) -> None:
+        self._sink.write(words.encode("utf-8"))
 
-        self._group: Group = self._page.add(Group(factory=self._page))
-        self._group.attribs.update(
-            {"inkscape:groupmode": "layer", "inkscape:label": label, "id": self._ids.one(name, fallback)}
-        )
+    def _go_to(self, place: str) -> None:
+        """Write furniture up to a place, or to its end; what is passed stays empty."""
+        self._put(self._path_end)
+        self._path_end = ""
+        for words in self._furniture:
+            self._put(words)
+            if next(self._furniture, None) == place:
+                return
 
-    def _part(self) -> None:
-        """Move what the layer holds into a group of its own, and open another beside it for the lines."""
-        from svgwrite.container import Group
+    def _id(self, name: str, fallback: str) -> None:
+        self._go_to(f"id {self._number}")
+        self._put(self._ids.one(name, fallback))
+        self._kind = ""
 
-        layer, filled, drawn = self._group, Group(factory=self._page), Group(factory=self._page)
-        filled.elements, layer.elements = layer.elements, [filled, drawn]
-        for name, value in self._style.items():
-            filled[name] = value
-            del layer.attribs[name]
-        self._group = drawn
-
-    def _draw(self, outlines: Outlines) -> None:
-        flipped = outlines.moved(self._bleed, self._bleed).flipped(self._rows)
+    def _draw(self, kind: str, outlines: Outlines) -> None:
+        if kind != self._kind:
+            self._go_to(f"{kind} {self._number}")
+            self._kind, self._points, self._unfinished = kind, 0, False
+        margins = self._page.margins
+        flipped = outlines.moved(margins.left, margins.bottom).flipped(self._rows)
         drawn = strokes(flipped, self._tolerance)
-        if self._options.profile is Profile.COMPACT:
-            for part in _blocks(drawn):
-                self._path(path_data(part, split=False)[0])
-            return
-        for name, data in zip(outlines.names, path_data(drawn, split=True), strict=True):
-            self._path(data, self._ids.next(name, "mark"))
+        if self._compact:
+            self._write_blocks(drawn, outlines.unfinished)
+        else:
+            self._write_paths(path_data(drawn, split=True), outlines.names)
+        self._unfinished = outlines.unfinished
+        if not self._compact and not self._unfinished:
+            self._put(self._path_end)
+            self._path_end = ""
 
-    def _path(self, data: str, name: str | None = None) -> None:
-        from svgwrite.path import Path
+    def _write_paths(self, data: list[str], names: Sequence[str]) -> None:
+        """Write a path for each mark; the last is left open, for an unfinished one has a rest."""
+        ends = [f'" id="{self._ids.next(name, "mark")}" />\n' for name in names[self._unfinished :]]
+        starts = [PATH] * len(data)
+        if self._unfinished:
+            starts[0] = ""
+            ends.insert(0, self._path_end)
+        self._path_end, ends[-1] = ends[-1], ""
+        self._put("".join(part for path in zip(starts, data, ends, strict=True) for part in path))
 
-        path = Path(data, factory=self._page)
-        if name:
-            path["id"] = name
-        self._group.add(path)
-
-
-def _blocks(drawn: Strokes) -> list[Strokes]:
-    """Cut strokes between marks so that no block has many more than ``PATH_POINTS`` points."""
-    ends = drawn.rings[drawn.marks]
-    cuts = np.unique(np.searchsorted(ends, np.arange(0, ends[-1], PATH_POINTS), side="right") - 1)
-    blocks = []
-    for first, last in pairwise([*cuts.tolist(), len(ends) - 1]):
-        r0, r1 = drawn.marks[first], drawn.marks[last]
-        p0, p1 = drawn.rings[r0], drawn.rings[r1]
-        rings, marks = drawn.rings[r0 : r1 + 1] - p0, drawn.marks[first : last + 1] - r0
-        blocks.append(
-            replace(
-                drawn,
-                points=drawn.points[p0:p1],
-                kinds=drawn.kinds[p0:p1],
-                rings=rings,
-                marks=marks,
-                closed=drawn.closed[r0:r1],
-            )
-        )
-    return blocks
+    def _write_blocks(self, drawn: Strokes, unfinished: bool) -> None:
+        """Write paths of many marks each; the last is left open, for more marks may come."""
+        fresh = _begins_block(drawn, self._points)
+        if self._unfinished:
+            fresh[0] = False
+        if unfinished and (len(fresh) > 1 or not self._unfinished):
+            fresh[-1] = True
+        cuts = np.flatnonzero(fresh).tolist()
+        for first, last in pairwise(sorted({0, *cuts, len(fresh)})):
+            if fresh[first]:
+                self._put(self._path_end + PATH)
+                self._path_end = '" />\n'
+            self._put(path_data(_some(drawn, first, last), split=False)[0])
+        self._points += len(drawn.points)
 
 
-def _metadata(artwork: Artwork) -> ET.Element:
+def _begins_block(drawn: Strokes, before: int) -> NDArray[np.bool_]:
+    """Return which marks begin a path: those in which another ``PATH_POINTS`` points are full.
+
+    Args:
+        drawn: the strokes.
+        before: how many points of the layer came before them.
+    """
+    ends = before + drawn.rings[drawn.marks]
+    return np.asarray(-(-ends[:-1] // PATH_POINTS) * PATH_POINTS < ends[1:])
+
+
+def _some(drawn: Strokes, first: int, last: int) -> Strokes:
+    """Return the marks from ``first`` to before ``last``."""
+    r0, r1 = drawn.marks[first], drawn.marks[last]
+    p0, p1 = drawn.rings[r0], drawn.rings[r1]
+    return Strokes(
+        drawn.points[p0:p1],
+        drawn.kinds[p0:p1],
+        drawn.rings[r0 : r1 + 1] - p0,
+        drawn.marks[first : last + 1] - r0,
+        drawn.closed[r0:r1],
+    )
+
+
+def furniture(page: Page, options: SvgOptions) -> str:
+    """Return the whole file but its paths and ids: words and, between ``PLACE`` marks, names of places.
+
+    The places are ``id N`` (the id of layer N, -1 for the cloth), ``areas N`` and ``lines N`` (its paths).
+    """
+    import svgwrite
+
+    margins = page.margins
+    width = format_mm((page.cell.columns + margins.left + margins.right) / STEPS_PER_MM)
+    height = format_mm((page.cell.rows + margins.bottom + margins.top) / STEPS_PER_MM)
+    drawing = svgwrite.Drawing(
+        size=(f"{width}mm", f"{height}mm"), viewBox=f"0 0 {width} {height}", debug=False
+    )
+    drawing["xmlns:inkscape"] = INKSCAPE
+    drawing["xmlns:sodipodi"] = SODIPODI
+    drawing.set_desc(title=xml_label(page.title))
+    drawing.set_metadata(_metadata(page))
+    drawing.add(_Element("sodipodi:namedview", NAMED_VIEW))
+    if options.cloth:
+        ground = _layer(-1, "%cloth", {"fill": hex_colour(page.cloth)})
+        ground.add(_Element("path", {"d": f"M0 0 {width} 0 {width} {height} 0 {height}Z"}))
+        drawing.add(ground)
+    pen = 0
+    for number, plate in enumerate(page.plates):
+        pen += not plate.guide
+        label = xml_label(plate.ink.name)
+        drawing.add(_inked(plate, number, f"%{label}" if plate.guide else f"{pen} {label}", options.profile))
+    tree = drawing.get_xml()
+    ET.indent(tree, space="")
+    body = ET.tostring(tree, encoding="unicode")
+    # Readers turn a bare carriage return into a line feed.
+    body = body.replace("\r", "&#13;")
+    body = re.sub(f'<{HOLE} at="({PLACE}[^{PLACE}]*{PLACE})" />\n', r"\1", body)
+    return f'<?xml version="1.0" encoding="UTF-8"?>\n{body}\n'
+
+
+def _inked(plate: Plate, number: int, label: str, profile: Profile) -> Any:
+    """Return the group of an ink: its styles, and the places of its paths; lines beside areas in groups."""
+    from svgwrite.container import Group
+
+    colour = hex_colour(plate.ink.colour)
+    # Marks laid over one another in one path would cut each other out under the even-odd rule.
+    loose = profile is Profile.COMPACT and plate.ink.overlap is Overlap.OVERLAY
+    filled = {"fill": colour, "fill-rule": "nonzero" if loose else "evenodd"}
+    drawn = {
+        "fill": "none",
+        "stroke": colour,
+        "stroke-width": format_mm(plate.ink.width),
+        "stroke-linecap": "round",
+        "stroke-linejoin": "round",
+    }
+    kinds = [("areas", filled)] * plate.areas + [("lines", drawn)] * plate.lines
+    layer = _layer(number, label, kinds[0][1] if len(kinds) == 1 else {})
+    for kind, style in kinds:
+        group = layer
+        if len(kinds) > 1:
+            group = layer.add(Group(debug=False))
+            group.attribs.update(style)
+        group.add(_Element(HOLE, {"at": f"{PLACE}{kind} {number}{PLACE}"}))
+    return layer
+
+
+def _layer(number: int, label: str, style: dict[str, str]) -> Any:
+    from svgwrite.container import Group
+
+    layer = Group(debug=False)
+    layer.attribs.update(
+        {"inkscape:groupmode": "layer", "inkscape:label": label, "id": f"{PLACE}id {number}{PLACE}", **style}
+    )
+    return layer
+
+
+def _metadata(page: Page) -> ET.Element:
     """Return recipe, seed and version as XML of our own namespace."""
     root = ET.Element("batik:provenance", {"xmlns:batik": NAMESPACE})
-    for name, value in xml_fields(artwork.provenance):
+    for name, value in xml_fields(page.provenance):
         ET.SubElement(root, f"batik:{name}", {"xml:space": "preserve"}).text = value
     return root
 
 
-class _NamedView:
-    """Tells Inkscape to show millimetres on its rulers."""
+class _Element:
+    """An element that svgwrite puts in as it is."""
 
-    elementname = "sodipodi:namedview"
+    def __init__(self, name: str, attributes: dict[str, str]) -> None:
+        self.elementname = name
+        self._attributes = attributes
 
     def get_xml(self) -> ET.Element:
         """Return the element, as svgwrite asks for it."""
-        return ET.Element(
-            self.elementname, {"id": "namedview", "inkscape:document-units": "mm", "units": "mm"}
-        )
+        return ET.Element(self.elementname, self._attributes)

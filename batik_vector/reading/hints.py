@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any, Literal, Union
 
-from batik_vector.fields import Between, Hidden, LengthUnit, OneOf, Says, Text
+from batik_vector.fields import Between, Hidden, LengthUnit, OneOf, Says, Several, Text
 from batik_vector.units import format_mm
 
 
@@ -26,6 +26,7 @@ class Hint:
     one_of: OneOf | None = None
     text: Text | None = None
     length: bool = False
+    several: bool = False
     hidden: bool = False
 
     @property
@@ -85,11 +86,12 @@ def taken_apart(hint: Any) -> Hint:
                 if type(mark) in _MARKS:
                     marks.setdefault(_MARKS[type(mark)], mark)
                 marks["length"] = marks.get("length") or isinstance(mark, LengthUnit)
+                marks["several"] = marks.get("several") or isinstance(mark, Several)
                 marks["hidden"] = marks.get("hidden") or isinstance(mark, Hidden)
         elif origin in (Union, types.UnionType) and types.NoneType in typing.get_args(hint):
             (hint,) = (arg for arg in typing.get_args(hint) if arg is not types.NoneType)
         else:
-            return Hint(hint, **marks)
+            return Hint(str if marks.get("several") else hint, **marks)
 
 
 @functools.cache
@@ -174,4 +176,6 @@ def _expected_other(hint: Hint) -> str:
         return "a table"
     if hint.base is bool:
         return "true or false"
+    if hint.several:
+        return Several.expected
     return hint.text.expected if hint.text else "text in quotes"

@@ -75,6 +75,8 @@ def _table(hint: Hint, value: dict[str, Any]) -> Any:
 
 
 def _list(hint: Hint, value: list[Any]) -> tuple[Any, ...]:
+    if hint.several and value:
+        return tuple(_text(hint, each) if type(each) is str else _value(hint, each) for each in value)
     if hint.many and hint.item is not None:
         return tuple(_value(hint.item, each) for each in value)
     if len(hint.items) != len(value) or not value:

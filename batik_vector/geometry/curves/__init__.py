@@ -9,8 +9,10 @@ from batik_vector.geometry.curves.harmonic import Parametric, Polar
 from batik_vector.geometry.curves.hypocycloid import Hypocycloid
 from batik_vector.geometry.curves.polygon import Polygon, Star
 from batik_vector.geometry.curves.rose import Petal, Rose
+from batik_vector.geometry.curves.segment import Segment
 from batik_vector.geometry.curves.spiral import Spiral
 from batik_vector.geometry.curves.superellipse import Superellipse
+from batik_vector.geometry.curves.wave import Wave
 
 CURVES: dict[str, type[Curve]] = {
     "superellipse": Superellipse,
@@ -23,6 +25,8 @@ CURVES: dict[str, type[Curve]] = {
     "polar": Polar,
     "parametric": Parametric,
     "spiral": Spiral,
+    "segment": Segment,
+    "wave": Wave,
 }
 
 __all__ = [
@@ -36,10 +40,12 @@ __all__ = [
     "Polar",
     "Polygon",
     "Rose",
+    "Segment",
     "Spiral",
     "Star",
     "Superellipse",
     "Trace",
+    "Wave",
     "polar",
     "trace",
 ]

@@ -16,9 +16,11 @@ from batik_vector.geometry.curves import (
     Polar,
     Polygon,
     Rose,
+    Segment,
     Spiral,
     Star,
     Superellipse,
+    Wave,
     polar,
     trace,
 )
@@ -49,6 +51,9 @@ EXAMPLES: list[Curve] = [
     Parametric(((3, 1.0, 0.0),), ((2, 1.0, 30.0),)),
     Spiral(),
     Spiral(6.5, 1.0, 0.0),
+    Segment(),
+    Wave(),
+    Wave(6, 0.1, 40.0),
     polar(lambda angle: 1 - 0.5 * np.sin(angle)),
 ]
 

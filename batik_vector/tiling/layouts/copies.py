@@ -1,52 +1,15 @@
-"""Layouts: how copies of one motif are set out. The catalogue is ``LAYOUTS``.
-
-A layout is measured in motif units and returns either the affine images of the motif, or an iterated
-system of maps where it bends the motif.
-"""
+"""Layouts of single copies: one, in a ring, in a mirror, in a rosette, in rows, or set by hand."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from typing import Annotated, ClassVar, TypeAlias
+import re
+from dataclasses import dataclass
+from typing import Annotated, ClassVar
 
 from batik_vector.errors import GeometryError
-from batik_vector.fields import Between, OneOf, Says, check
-from batik_vector.geometry.ifs import Ifs
-from batik_vector.geometry.maps import VARIATIONS
-from batik_vector.geometry.maps.affine import Affine
-from batik_vector.geometry.maps.base import Variation
-from batik_vector.geometry.maps.flame import FlameMap
-from batik_vector.geometry.maps.julian import JuliaN, Reading
-from batik_vector.geometry.maps.linear import Linear
-
-Pair: TypeAlias = tuple[Annotated[float, Between(-1e4, 1e4)], Annotated[float, Between(-1e4, 1e4)]]
-"""A vector in motif units."""
-
-
-@dataclass(frozen=True)
-class Bend:
-    """Images that are no affine copies: the motif is moved by ``first`` and carried through ``system``."""
-
-    first: Affine
-    system: Ifs
-
-
-def _carried(first: Affine, system: Ifs) -> list[Affine] | Bend:
-    affine = system.affine_images()
-    return Bend(first, system) if affine is None else [image @ first for image in affine]
-
-
-class Layout:
-    """What every layout offers. ``spreads`` says whether a placement's width measures all copies together."""
-
-    spreads: ClassVar[bool] = True
-
-    def __post_init__(self) -> None:
-        check(self)
-
-    def images(self, cell: tuple[float, float]) -> list[Affine] | Bend:
-        """Return the images of the motif; ``cell`` is the repeat's width and height in motif units."""
-        raise NotImplementedError
+from batik_vector.fields import Between, Says, Text, check
+from batik_vector.geometry.maps.affine import Affine, unit_power
+from batik_vector.tiling.layouts.base import Bend, Layout, Pair
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -58,31 +21,6 @@ class Single(Layout):
     def images(self, cell: tuple[float, float]) -> list[Affine] | Bend:
         """One image."""
         return [Affine.turn(self.turn)]
-
-
-@dataclass(frozen=True, kw_only=True)
-class Julian(Layout):
-    """The paper's layout: the motif is moved, spread by JuliaN, and both again ``level`` times.
-
-    Power 2 is symmetric, 3 the three-circle, 4 the four-square, 5 the five-circle layout.
-    Tian et al. 2019, Eq. 22 and 23.
-    """
-
-    power: Annotated[int, Between(-64, 64), Says("number of flowers", "P1")] = 4
-    dist: Annotated[
-        float, Between(-64, 64), Says("how they bend; equal to power they keep their shape", "P2")
-    ] = 4.0
-    level: Annotated[int, Between(0, 100_000), Says("how often the spreading is repeated")] = 1
-    shift: Annotated[Pair, Says("move before each spreading", "dx, dy")] = (4 / 3, 4 / 3)
-    turn: Annotated[float, Between(-360, 360), Says("degrees the motif is turned first")] = 0.0
-    reading: Annotated[Reading, Says("which reading of Eq. 22")] = "rotate"
-
-    def images(self, cell: tuple[float, float]) -> list[Affine] | Bend:
-        """``level`` times moved and spread."""
-        spread = FlameMap(
-            pre=Affine.translation(self.shift), terms=((1.0, JuliaN(self.power, self.dist, self.reading)),)
-        )
-        return _carried(Affine.turn(self.turn), Ifs((spread,), self.level))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -117,6 +55,55 @@ class Mirror(Layout):
         """Two images."""
         first = Affine.translation(self.shift) @ Affine.turn(self.turn)
         return [first, Affine.mirror(self.axis) @ first]
+
+
+_GROUP = re.compile(r"^([CcDd])(\d{1,3})$")
+GROUP_PATTERN = r"^\s*[CcDd]\d{1,3}\s*$"
+MAX_ORDER = 500
+
+
+def parse_rosette(text: str) -> str:
+    """Return the name of a rosette group in its one spelling: ``"d6"`` → ``"D6"``.
+
+    Raises:
+        ValueError: with what was expected.
+    """
+    match = _GROUP.match(text.strip())
+    if match is None or not 1 <= int(match[2]) <= MAX_ORDER:
+        raise ValueError(f'expected "Cn" (turns) or "Dn" (turns and mirrors) with n from 1 to {MAX_ORDER}')
+    return f"{match[1].upper()}{int(match[2])}"
+
+
+@dataclass(frozen=True, kw_only=True)
+class RosetteLayout(Layout):
+    """Copies under a rosette group: Cn turns the motif n times round the centre, Dn mirrors each as well.
+
+    Copies that coincide, as those of a motif that stands on a mirror and is its own image, are drawn once.
+    Leonardo's theorem: these are all finite groups of the plane (Weyl, Symmetry, 1952).
+    """
+
+    group: Annotated[
+        str, Text(parse_rosette, '"Cn" or "Dn"', GROUP_PATTERN), Says('"C5", "D6": the group')
+    ] = "D6"
+    shift: Annotated[Pair, Says("move of the motif away from the centre")] = (1.0, 0.0)
+    turn: Annotated[float, Between(-360, 360), Says("degrees the motif is turned first")] = 0.0
+    axis: Annotated[float, Between(-360, 360), Says("direction of the first mirror in degrees")] = 0.0
+
+    def __post_init__(self) -> None:
+        check(self)
+        try:
+            object.__setattr__(self, "group", parse_rosette(self.group))
+        except ValueError as error:
+            raise GeometryError(f'group "{self.group}": {error}') from None
+
+    def images(self, cell: tuple[float, float]) -> list[Affine] | Bend:
+        """n images, or 2n with the mirrored ones after each turned one."""
+        count = int(self.group[1:])
+        first = Affine.translation(self.shift) @ Affine.turn(self.turn)
+        turns = [Affine.similarity(unit_power(k, count)) for k in range(count)]
+        if self.group[0] == "C":
+            return [turn @ first for turn in turns]
+        return [turn @ image @ first for turn in turns for image in (Affine(), Affine.mirror(self.axis))]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -190,58 +177,3 @@ class Lattice(Layout):
             for row in range(self.rows)
             for column in range(self.columns)
         ]
-
-
-AnyVariation: TypeAlias = Annotated[Variation, OneOf(lambda: VARIATIONS, "variation")]
-
-
-@dataclass(frozen=True, kw_only=True)
-class Term:
-    """One weighted variation of a map."""
-
-    variation: Annotated[AnyVariation, Says("the variation V_j")]
-    weight: Annotated[float, Between(-100, 100), Says("its weight", "v_ij")] = 1.0
-
-    def __post_init__(self) -> None:
-        check(self)
-
-
-@dataclass(frozen=True, kw_only=True)
-class MapSpec:
-    """One map of an iterated system: affine, then a weighted sum of variations, then affine."""
-
-    pre: Annotated[Spot, Says("affine map before the variations")] = field(default_factory=Spot)
-    terms: Annotated[tuple[Term, ...], Says("the weighted variations; none is the identity")] = ()
-    post: Annotated[Spot, Says("affine map after the variations")] = field(default_factory=Spot)
-
-    def flame(self) -> FlameMap:
-        """Return the map itself."""
-        terms = tuple((term.weight, term.variation) for term in self.terms) or ((1.0, Linear()),)
-        return FlameMap(pre=self.pre.affine(), terms=terms, post=self.post.affine())
-
-
-@dataclass(frozen=True, kw_only=True)
-class System(Layout):
-    """An iterated function system in the flame form. Tian et al. 2019, Eq. 7; Draves & Reckase 2003."""
-
-    maps: Annotated[tuple[MapSpec, ...], Says("the maps F_i")]
-    level: Annotated[int, Between(0, 100_000), Says("how often they are applied")] = 1
-
-    def images(self, cell: tuple[float, float]) -> list[Affine] | Bend:
-        """The union of all images under all maps, ``level`` times."""
-        if not self.maps:
-            raise GeometryError("an ifs layout needs at least one map")
-        return _carried(Affine(), Ifs(tuple(spec.flame() for spec in self.maps), self.level))
-
-
-LAYOUTS: dict[str, type[Layout]] = {
-    "single": Single,
-    "julian": Julian,
-    "ring": Ring,
-    "mirror": Mirror,
-    "free": Free,
-    "lattice": Lattice,
-    "ifs": System,
-}
-
-AnyLayout: TypeAlias = Annotated[Layout, OneOf(lambda: LAYOUTS, "layout")]

@@ -1,0 +1,170 @@
+"""Borders as a recipe tells them: a frieze along the sides of a cloth, and what becomes of it at corners."""
+
+from __future__ import annotations
+
+import enum
+from dataclasses import dataclass
+from typing import Annotated, TypeAlias
+
+from batik_vector.errors import GeometryError
+from batik_vector.fields import Between, Length, Says, Text, check, choice
+from batik_vector.placement import Placement
+from batik_vector.tiling.friezes import FRIEZE_NAMES, frieze
+from batik_vector.units import to_steps
+
+MAX_DEPTH_MM = 20_000.0
+Measure: TypeAlias = Annotated[Length, Between(0.1, MAX_DEPTH_MM)]
+
+
+class Corner(enum.StrEnum):
+    """How a band turns a corner of the cloth."""
+
+    MITRE = "mitre"
+    """Cut along the 45° line and mirrored across it: every line meets its mirror image. Opposite sides are
+    turned into one another, neighbouring ones run against each other."""
+    BEND = "bend"
+    """Bent round a quarter circle, so that what runs goes on running all round."""
+    MOTIF = "motif"
+    """Ended at a square that holds placements of its own (``corner_place``)."""
+
+
+class Facing(enum.StrEnum):
+    """How bands with motif corners, or without corners, stand on their sides."""
+
+    TURN = "turn"
+    """Each side and corner is the one before, turned by a right angle."""
+    MIRROR = "mirror"
+    """Opposite sides and corners are mirror images."""
+
+
+class Ends(enum.StrEnum):
+    """What becomes of a band at an edge of the cloth where it turns no corner."""
+
+    WHOLE = "whole"
+    """It is stretched a little to end with a whole period."""
+    TRIM = "trim"
+    """It keeps its period and is cut off."""
+
+
+class ClothSide(enum.StrEnum):
+    """A side of the cloth."""
+
+    BOTTOM = "bottom"
+    RIGHT = "right"
+    TOP = "top"
+    LEFT = "left"
+
+
+@dataclass(frozen=True, kw_only=True)
+class RailSpec:
+    """A rule that runs along a border, round all its corners."""
+
+    at: Annotated[
+        Annotated[Length, Between(0, MAX_DEPTH_MM)], Says("from the border's outer edge to the rule's middle")
+    ]
+    width: Annotated[Annotated[Length, Between(0.01, MAX_DEPTH_MM)], Says("breadth of the rule")] = 1.0
+    ink: Annotated[str, Says("ink it is drawn with; needed where there are several")] = ""
+
+    def __post_init__(self) -> None:
+        check(self)
+
+
+def _checked_frieze(text: str) -> str:
+    return frieze(text).name
+
+
+@dataclass(frozen=True, kw_only=True)
+class BorderSpec:
+    """A band along sides of the cloth: one period of a frieze, its rules and its corners.
+
+    A period is drawn with x along the band, anticlockwise round the cloth, and y from the band's outer edge
+    (0) inwards; what reaches beyond the depth is cut off.
+    """
+
+    size: Annotated[tuple[Measure, Measure], Says("period along the band, and depth from its outer edge")]
+    place: Annotated[
+        tuple[Placement, ...], Says("what lies in one period, bottom first; the frieze repeats it")
+    ] = ()
+    frieze: Annotated[
+        str, Text(_checked_frieze, FRIEZE_NAMES), Says(f"the band's symmetry: {FRIEZE_NAMES}")
+    ] = "p1"
+    phase: Annotated[
+        Annotated[Length, Between(-MAX_DEPTH_MM, MAX_DEPTH_MM)],
+        Says("where in the period a side begins, and mitres cut; the middle of a bent border's lower side"),
+    ] = 0.0
+    corner: Annotated[Corner, Says("how it turns a corner")] = Corner.MITRE
+    corner_place: Annotated[
+        tuple[Placement, ...],
+        Says('what lies in the corner square of corner "motif", drawn for the lower left corner'),
+    ] = ()
+    radius: Annotated[
+        Annotated[Length, Between(0, MAX_DEPTH_MM)] | None,
+        Says('radius of the inner edge round a corner "bend"; half the depth when left out'),
+    ] = None
+    facing: Annotated[
+        Facing, Says('how sides and corners stand to one another where no corner "mitre" is')
+    ] = Facing.TURN
+    sides: Annotated[tuple[ClothSide, ...], Says("the sides it lies along")] = tuple(ClothSide)
+    ends: Annotated[Ends, Says("at an edge of the cloth: a whole period, or cut off")] = Ends.WHOLE
+    rails: Annotated[tuple[RailSpec, ...], Says("rules along the band, beneath what is placed")] = ()
+    gap: Annotated[Annotated[Length, Between(0, MAX_DEPTH_MM)], Says("bare ground inside the border")] = 0.0
+    limit: Annotated[
+        float, Between(0, 50), Says("percent by which a period may be stretched or squeezed to fit its side")
+    ] = 5.0
+
+    def __post_init__(self) -> None:
+        check(self)
+        try:
+            object.__setattr__(self, "frieze", _checked_frieze(self.frieze))
+        except ValueError as error:
+            raise GeometryError(str(error)) from None
+        for name, kind, what in (
+            ("corner", Corner, "corner"),
+            ("facing", Facing, "facing"),
+            ("ends", Ends, "end"),
+        ):
+            object.__setattr__(self, name, choice(kind, getattr(self, name), what))
+        object.__setattr__(self, "sides", tuple(choice(ClothSide, side, "side") for side in self.sides))
+        self._refuse_contradictions()
+
+    def _refuse_contradictions(self) -> None:
+        if not self.sides:
+            raise GeometryError("sides is empty: expected one or more of bottom, right, top, left")
+        if not (self.place or self.rails or self.corner_place):
+            raise GeometryError("the border is empty: expected placements in place, or rails")
+        if self.corner_place and self.corner != Corner.MOTIF:
+            raise GeometryError(f'corner_place is given with corner = "{self.corner}": expected "motif"')
+        if self.radius is not None and self.corner != Corner.BEND:
+            raise GeometryError(f'radius is given with corner = "{self.corner}": expected "bend"')
+        for placement in (*self.place, *self.corner_place):
+            _refuse_wallpaper(placement)
+        for rail in self.rails:
+            if rail.at - rail.width / 2 < 0 or rail.at + rail.width / 2 > self.size[1]:
+                raise GeometryError(
+                    f"a rail of {rail.width:g} mm at {rail.at:g} mm reaches beyond the border: "
+                    f"expected its middle from {rail.width / 2:g} to {self.size[1] - rail.width / 2:g} mm"
+                )
+
+    @property
+    def period(self) -> int:
+        """Length of a period in grid steps, before it is stretched."""
+        return to_steps(self.size[0])
+
+    @property
+    def depth(self) -> int:
+        """Depth in grid steps."""
+        return to_steps(self.size[1])
+
+
+def _refuse_wallpaper(placement: Placement) -> None:
+    """Raise where a placement asks for what only a tile has."""
+    if placement.symmetry not in ("", "p1"):
+        raise GeometryError(
+            f'symmetry = "{placement.symmetry}": a border repeats by its frieze; expected "p1", '
+            "which leaves the frieze's turns and mirrors out, or no symmetry"
+        )
+    if placement.phase != (0.0, 0.0) or placement.region is not None:
+        raise GeometryError("phase and region belong to a tile's placements: expected neither in a border")
+
+
+__all__ = ["BorderSpec", "ClothSide", "Corner", "Ends", "Facing", "RailSpec"]

@@ -1,0 +1,1 @@
+"""Reading drawings that other programs made, as geometry."""

@@ -1,0 +1,99 @@
+"""Affine maps as SVG writes them: (a, b, c, d, e, f) takes (x, y) to (a·x + c·y + e, b·x + d·y + f).
+
+Plain tuples, since there is one for every group of a drawing and none for a vertex.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Sequence
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+Matrix: TypeAlias = tuple[float, float, float, float, float, float]
+IDENTITY: Matrix = (1.0, 0.0, 0.0, 1.0, 0.0, 0.0)
+_CALL = re.compile(r"\s*,?\s*(matrix|translate|scale|rotate|skewX|skewY)\s*\(([^()]*)\)\s*")
+_NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,3})?")
+_COUNTS = {
+    "matrix": (6,),
+    "translate": (1, 2),
+    "scale": (1, 2),
+    "rotate": (1, 3),
+    "skewX": (1,),
+    "skewY": (1,),
+}
+
+
+def times(a: Matrix, b: Matrix) -> Matrix:
+    """Return the map that does b, then a."""
+    return (
+        a[0] * b[0] + a[2] * b[1],
+        a[1] * b[0] + a[3] * b[1],
+        a[0] * b[2] + a[2] * b[3],
+        a[1] * b[2] + a[3] * b[3],
+        a[0] * b[4] + a[2] * b[5] + a[4],
+        a[1] * b[4] + a[3] * b[5] + a[5],
+    )
+
+
+def moved(points: NDArray[np.float64], matrix: Matrix) -> NDArray[np.float64]:
+    """Return points, shape (n, 2), under a map."""
+    a, b, c, d, e, f = matrix
+    x, y = points[:, 0], points[:, 1]
+    return np.column_stack([a * x + c * y + e, b * x + d * y + f])
+
+
+def spread(matrix: Matrix) -> tuple[float, float]:
+    """Return by how much a map stretches lengths, at most and at least: its singular values."""
+    a, b, c, d = matrix[:4]
+    mean, apart = math.hypot(a + d, b - c) / 2, math.hypot(a - d, b + c) / 2
+    return mean + apart, abs(mean - apart)
+
+
+def parse_transform(text: str) -> Matrix:
+    """Return the map that a transform attribute writes.
+
+    Raises:
+        ValueError: where it is none.
+    """
+    matrix, at = IDENTITY, 0
+    text = text.strip()
+    if text == "none":
+        return IDENTITY
+    while at < len(text):
+        match = _CALL.match(text, at)
+        if match is None:
+            raise ValueError(f'transform "{text[:80]}" cannot be read')
+        matrix = times(matrix, _called(match[1], [float(each) for each in _NUMBER.findall(match[2])]))
+        at = match.end()
+    if not all(map(math.isfinite, matrix)):
+        raise ValueError(f'transform "{text[:80]}" is not finite')
+    return matrix
+
+
+def _called(name: str, numbers: Sequence[float]) -> Matrix:
+    if len(numbers) not in _COUNTS[name]:
+        raise ValueError(f"transform {name}() with {len(numbers)} numbers")
+    if name == "matrix":
+        a, b, c, d, e, f = numbers
+        return a, b, c, d, e, f
+    first, second = numbers[0], numbers[1] if len(numbers) > 1 else None
+    if name == "translate":
+        return 1.0, 0.0, 0.0, 1.0, first, second or 0.0
+    if name == "scale":
+        return first, 0.0, 0.0, first if second is None else second, 0.0, 0.0
+    if name == "rotate":
+        return _rotation(first, *numbers[1:])
+    lean = math.tan(math.radians(first))
+    return (1.0, 0.0, lean, 1.0, 0.0, 0.0) if name == "skewX" else (1.0, lean, 0.0, 1.0, 0.0, 0.0)
+
+
+def _rotation(degrees: float, x: float = 0.0, y: float = 0.0) -> Matrix:
+    # Quarter turns are exact, so that what lies on an edge of the page stays on it.
+    quarter = {0.0: (1.0, 0.0), 90.0: (0.0, 1.0), 180.0: (-1.0, 0.0), 270.0: (0.0, -1.0)}
+    turn = math.radians(degrees)
+    cos, sin = quarter.get(degrees % 360, (math.cos(turn), math.sin(turn)))
+    return cos, sin, -sin, cos, x - cos * x + sin * y, y - sin * x - cos * y

@@ -1,0 +1,74 @@
+"""What a shape is painted with: the one colour that stands for an ink."""
+
+from __future__ import annotations
+
+import re
+import xml.etree.ElementTree as ET
+
+from batik_vector.importing.document import MAX_DEPTH, Document, local, reference
+from batik_vector.importing.styles import Style, colour_of, share_of
+
+EXPAND = "expand it to outlines first"
+URL = re.compile(r"""\s*url\(\s*['"]?\s*([^'")]*?)\s*['"]?\s*\)\s*(.*)""", re.DOTALL)
+GRADIENTS = ("linearGradient", "radialGradient", "meshgradient")
+
+
+def paint_of(document: Document, element: ET.Element, style: Style, what: str) -> str:
+    """Return the colour of a fill or a stroke as ``#rrggbb``, or nothing where there is none.
+
+    Args:
+        document: keeps notes, and faults where the paint is a pattern.
+        element: the shape.
+        style: its own.
+        what: "fill" or "stroke".
+    """
+    text = style[what]
+    share = share_of(style[f"{what}-opacity"])
+    if text in ("none", "context-fill", "context-stroke") or share == 0:
+        return ""
+    match = URL.fullmatch(text)
+    if match:
+        return _server(document, element, match[1], match[2])
+    found = colour_of(text, style["color"])
+    if found is None:
+        document.note(f'the colour "{text[:40]}" is not understood, and taken as black')
+        return "#000000"
+    colour, opacity = found
+    if opacity == 0:
+        return ""
+    if opacity * share * share_of(style.get("opacity", "1")) < 1:
+        document.note("what is half transparent is taken as solid")
+    return colour
+
+
+def _server(document: Document, element: ET.Element, target: str, fallback: str) -> str:
+    """Return the one ink that a gradient stands for."""
+    server = document.by_id.get(target[1:]) if target.startswith("#") else None
+    kind = "" if server is None else local(server)
+    if kind in GRADIENTS:
+        document.note("a gradient is taken as one ink, in the colour it begins with")
+        return _first_stop(document, server) or "#000000"
+    if server is not None:
+        document.refuse(element, f"is filled with a {kind}; {EXPAND}")
+    elif fallback and fallback != "none":
+        found = colour_of(fallback)
+        return found[0] if found and found[1] else ""
+    return ""
+
+
+def _first_stop(document: Document, server: ET.Element | None) -> str:
+    for _ in range(MAX_DEPTH):
+        if server is None:
+            break
+        for stop in server.iter():
+            if local(stop) == "stop":
+                found = colour_of(_declared(stop, "stop-color") or "black")
+                return found[0] if found else "#000000"
+        server = document.by_id.get(reference(server)[1:])
+    return ""
+
+
+def _declared(element: ET.Element, name: str) -> str:
+    pairs = (part.split(":", 1) for part in (element.get("style") or "").split(";") if ":" in part)
+    values = {key.strip(): value.strip() for key, value in pairs}
+    return values.get(name) or element.get(name) or ""

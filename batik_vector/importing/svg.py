@@ -1,0 +1,144 @@
+"""A tile that any program drew, as an artwork: read from an SVG's geometry.
+
+    read_tile("leaves.svg", "half-drop")
+
+The page is one tile. Its sides come to whole micrometres, and with them, by as little, all that lies on it.
+Marks are what the file draws, not the normal form: they may overlap and reach beyond the page, which cuts
+them off in print as on the screen.
+"""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from fractions import Fraction
+
+import numpy as np
+
+from batik_vector.artwork import Artwork, Cell, DropAxis
+from batik_vector.errors import GeometryError
+from batik_vector.importing.document import Document, DrawingError, children, load, local, parse
+from batik_vector.importing.flatten import flattened
+from batik_vector.importing.inks import Marks, layers_of, painted
+from batik_vector.importing.matrix import Matrix
+from batik_vector.importing.outlines import CURVE, joined
+from batik_vector.importing.page import Page, page_of
+from batik_vector.importing.walk import Shape, Walker
+from batik_vector.tiling.cells import parse_repeat
+from batik_vector.units import STEPS_PER_MM, format_mm
+
+TOLERANCE_MM = 0.005
+ROUNDED_MM = 1e-6
+"""What a page may be off whole micrometres without a word about it."""
+NAMESPACE = b"urn:x-batik-vector:provenance"
+"""Ours, as :mod:`batik_vector.export.provenance` writes it."""
+
+
+@dataclass(frozen=True, eq=False)
+class Reading:
+    """A tile and how it was read.
+
+    ``page`` is the size in mm that the file gives, before its sides came to whole micrometres. ``notes``
+    say, for people, what was guessed, taken for something else or passed over. ``ours`` tells whether the
+    file says that this program wrote it, ``curved`` whether it draws any curves.
+    """
+
+    artwork: Artwork
+    page: tuple[float, float]
+    notes: tuple[str, ...]
+    ours: bool
+    curved: bool
+
+
+def read_tile(
+    source: str | os.PathLike[str] | bytes, repeat: str = "grid", tolerance: float = TOLERANCE_MM
+) -> Artwork:
+    """Return the tile that an SVG draws on its page.
+
+    Args:
+        source: the path of the file, or its bytes.
+        repeat: how tiles stand to one another: "grid", "half-drop", "brick", "drop p/q", "brick p/q".
+        tolerance: mm; how far a polyline may stand from the curve that the file draws.
+
+    Raises:
+        DrawingError: where the file is no tile, or draws what is no geometry.
+        GeometryError: where the repeat is none.
+    """
+    return read_svg(source, repeat, tolerance).artwork
+
+
+def read_svg(
+    source: str | os.PathLike[str] | bytes,
+    repeat: str = "grid",
+    tolerance: float = TOLERANCE_MM,
+    bleed: float = 0.0,
+) -> Reading:
+    """Return the tile that an SVG draws, and how it was read; see :func:`read_tile`.
+
+    Args:
+        source: the path of the file, or its bytes.
+        repeat: how tiles stand to one another.
+        tolerance: mm.
+        bleed: mm; how far the page reaches beyond the tile on every side.
+    """
+    drop, axis = parse_repeat(repeat)
+    if not tolerance > 0:
+        raise GeometryError(f"tolerance = {tolerance:g}, expected more than 0 mm")
+    data, name = load(source)
+    document = parse(data, name)
+    ours = NAMESPACE in data
+    page = page_of(document)
+    cell = _cell(document, page, drop, axis, bleed)
+    shapes = Walker(document, page).walk()
+    if not shapes:
+        raise document.fault("nothing is drawn: no shape has a fill or a stroke that shows")
+    marks = _marks(shapes, page, cell, tolerance, bleed)
+    layers, cloth = layers_of(document, marks, cell, bleed, ours)
+    _page_notes(document, page, cell, bleed)
+    artwork = Artwork(_title(document), cell, layers, cloth, tolerance, bleed)
+    curved = any((shape.outline.kinds == CURVE).any() for shape in shapes)
+    return Reading(artwork, (page.width, page.height), tuple(document.notes), ours, curved)
+
+
+def _cell(document: Document, page: Page, drop: Fraction, axis: DropAxis, bleed: float) -> Cell:
+    """Return the page without its bleed as a cell: its sides in whole steps on which the drop lands."""
+    sides = [(side - 2 * bleed) * STEPS_PER_MM for side in (page.width, page.height)]
+    unit = [1, drop.denominator] if axis == DropAxis.COLUMN else [drop.denominator, 1]
+    columns, rows = (round(side / each) * each for side, each in zip(sides, unit, strict=True))
+    if columns < 1 or rows < 1:
+        raise document.fault("is smaller than its bleed", document.root)
+    return Cell(columns, rows, drop, axis)
+
+
+def _marks(shapes: list[Shape], page: Page, cell: Cell, tolerance: float, bleed: float) -> Marks:
+    """Return what shapes paint in mm, y up, the cell's lower left corner at (0, 0)."""
+    across, up = cell.width / (page.width - 2 * bleed), cell.height / (page.height - 2 * bleed)
+    flip: Matrix = (across, 0.0, 0.0, -up, -bleed * across, (page.height - bleed) * up)
+    outline = joined([shape.outline for shape in shapes]).moved(flip)
+    lines = flattened(outline, cell.width, cell.height, tolerance)
+    counts = np.array([len(shape.outline.closed) for shape in shapes], np.intp)
+    return painted(shapes, lines, counts, outline.closed)
+
+
+def _page_notes(document: Document, page: Page, cell: Cell, bleed: float) -> None:
+    if page.guessed:
+        document.note(page.guessed)
+    given = [side - 2 * bleed for side in (page.width, page.height)]
+    if max(abs(given[0] - cell.width), abs(given[1] - cell.height)) > ROUNDED_MM:
+        there = " × ".join(f"{side:.6f}".rstrip("0").rstrip(".") for side in given)
+        whole = f"{format_mm(cell.width)} × {format_mm(cell.height)}"
+        document.note(f"a page of {there} mm comes to {whole} mm in whole µm, and the drawing with it")
+    sizes = [(document.root.get(side) or "0").strip() for side in ("width", "height")]
+    pixels = any(size[-1:].isdigit() or size.endswith("px") for size in sizes)
+    if pixels and "Illustrator" in document.generator:
+        document.note("Illustrator counts 72 px to the inch, SVG 96: make sure that this is the size meant")
+
+
+def _title(document: Document) -> str:
+    for child in children(document.root):
+        if local(child) == "title":
+            return " ".join("".join(child.itertext()).split())[:200] or "Untitled"
+    return "Untitled"
+
+
+__all__ = ["DrawingError", "Reading", "read_svg", "read_tile"]

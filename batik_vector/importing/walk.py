@@ -1,0 +1,323 @@
+"""The walk over a drawing's tree: what is painted, in painting order, as outlines on the page.
+
+Groups, nested pages, ``use`` and symbols are followed, transforms and styles carried down. What paints
+without being an outline (pictures, text, patterns, clips, masks, filters) is refused by name and line.
+"""
+
+from __future__ import annotations
+
+import re
+import xml.etree.ElementTree as ET
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from batik_vector.importing.document import (
+    INKSCAPE,
+    MAX_DEPTH,
+    SERIF,
+    SWITCHES,
+    Document,
+    children,
+    local,
+    reference,
+)
+from batik_vector.importing.matrix import IDENTITY, Matrix, moved, parse_transform, spread, times
+from batik_vector.importing.outlines import Outline, polyline
+from batik_vector.importing.page import Page, fitted, parse_px, view_box
+from batik_vector.importing.paint import EXPAND, URL, paint_of
+from batik_vector.importing.shapes import SHAPES, outline_of
+from batik_vector.importing.styles import INITIAL, Style, Styles, share_of
+
+MAX_SHAPES = 1_000_000
+MAX_POINTS = 20_000_000
+"""Shapes and points a drawing may have once every ``use`` in it is followed."""
+MAX_REACH_MM = 1e6
+"""How far from the page a shape may reach; further off, products of whole µm leave 64 bits."""
+FRAME_SLACK = 1e-3
+"""Parts of a side by which a clip may fall short of what it holds and still cut nothing away."""
+
+_REFUSED = {
+    "image": "a picture has no outlines; trace it, or take it out",
+    "text": "text hangs on a font; convert it to outlines first",
+    "foreignObject": "foreign content cannot be read as geometry",
+    "video": "is no geometry",
+    "canvas": "is no geometry",
+    "iframe": "is no geometry",
+}
+_LAYER_CODE = re.compile("_x([0-9A-Fa-f]{2,4})_")
+
+
+@dataclass(frozen=True, eq=False)
+class Shape:
+    """Something painted: its outline in mm on the page, y down, and how it is filled and stroked.
+
+    ``fill`` and ``stroke`` are ``#rrggbb``, or nothing. ``label`` is the name of the layer it lies in,
+    ``name`` its own. ``width`` is the stroke's, in mm.
+    """
+
+    outline: Outline
+    label: str
+    name: str
+    fill: str
+    rule: str
+    stroke: str
+    width: float
+
+
+@dataclass(frozen=True)
+class _Here:
+    """What holds at one place of the tree."""
+
+    matrix: Matrix
+    style: Style
+    label: str = ""
+    size: tuple[float, float] = (0.0, 0.0)
+    used: tuple[ET.Element, ...] = ()
+    depth: int = 0
+    frames: tuple[tuple[ET.Element, Outline, Matrix], ...] = ()
+
+
+class Walker:
+    """Collects what a document paints. :meth:`walk` is called once."""
+
+    def __init__(self, document: Document, page: Page) -> None:
+        self.document = document
+        self.page = page
+        self.shapes: list[Shape] = []
+        self._styles = Styles(document)
+        self._points = 0
+
+    def walk(self) -> list[Shape]:
+        """Return the shapes in painting order.
+
+        Raises:
+            DrawingError: with all that cannot be read.
+        """
+        root = self.document.root
+        style = self._styles.of(root, INITIAL)
+        here = _Here(self.page.matrix, style, size=self.page.size)
+        if self._painted(root, style):
+            self._refused_effects(root, style, here)
+            for child in children(root):
+                self._visit(child, here, top=True)
+        self.document.settle()
+        return self.shapes
+
+    def _visit(self, element: ET.Element, here: _Here, top: bool = False) -> None:
+        kind = local(element)
+        if kind in _PASSED or not kind:
+            return
+        style = self._styles.of(element, here.style)
+        if not self._painted(element, style):
+            return
+        if kind in _REFUSED:
+            if style["visibility"] == "visible" and (kind != "text" or "".join(element.itertext()).strip()):
+                self.document.refuse(element, _REFUSED[kind])
+            return
+        matrix = times(here.matrix, self._transform(element, style))
+        inside = replace(here, matrix=matrix, style=style, depth=here.depth + 1)
+        if inside.depth > MAX_DEPTH:
+            raise self.document.fault(f"nested deeper than {MAX_DEPTH} elements", element)
+        self._refused_effects(element, style, inside)
+        if kind in SHAPES:
+            self._draw(element, inside)
+        elif kind in ("g", "a"):
+            inside = replace(inside, label=_label(element, here.label, top))
+            for child in children(element):
+                self._visit(child, inside)
+        elif kind == "switch":
+            self._switch(element, inside)
+        elif kind == "svg":
+            self._viewport(element, inside)
+        elif kind == "use":
+            self._use(element, inside)
+        else:
+            self.document.note(f"<{kind}> is passed over")
+
+    def _painted(self, element: ET.Element, style: Style) -> bool:
+        return style.get("display") != "none" and share_of(style.get("opacity", "1")) > 0
+
+    def _transform(self, element: ET.Element, style: Style) -> Matrix:
+        text = style.get("transform", "")
+        if text and text != (element.get("transform") or "").strip():
+            text = re.sub(r"(?<=[\d.])(px|deg)\b", "", text)
+        try:
+            return parse_transform(text)
+        except ValueError as error:
+            self.document.refuse(element, str(error))
+            return IDENTITY
+
+    def _switch(self, element: ET.Element, here: _Here) -> None:
+        """Draw the first child that asks for nothing beyond SVG."""
+        for child in children(element):
+            if not any(child.get(name) for name in SWITCHES) and local(child) != "foreignObject":
+                self._visit(child, here)
+                return
+
+    def _viewport(self, element: ET.Element, here: _Here, size: tuple[str, str] = ("", "")) -> None:
+        """Draw a nested svg, or a symbol in the size that a use gives it."""
+        width = _px(size[0] or element.get("width"), here.size[0], here.size[0])
+        height = _px(size[1] or element.get("height"), here.size[1], here.size[1])
+        if width <= 0 or height <= 0:
+            return
+        x, y = _px(element.get("x"), 0.0, here.size[0]), _px(element.get("y"), 0.0, here.size[1])
+        box = view_box(self.document, element)
+        inner = fitted(box, width, height, element.get("preserveAspectRatio", ""))
+        outer = times(here.matrix, (1.0, 0.0, 0.0, 1.0, x, y))
+        frames = here.frames
+        if here.style.get("overflow", "hidden") not in ("visible", "auto"):
+            frames += ((element, _box(0.0, 0.0, width, height), outer),)
+        inside = replace(
+            here,
+            matrix=times(outer, inner),
+            size=(box[2], box[3]) if box else (width, height),
+            frames=frames,
+        )
+        for child in children(element):
+            self._visit(child, inside)
+
+    def _use(self, element: ET.Element, here: _Here) -> None:
+        target = reference(element)
+        found = self.document.by_id.get(target[1:]) if target.startswith("#") else None
+        if found is None:
+            where = "another file" if target and not target.startswith("#") else "nothing in the file"
+            self.document.refuse(element, f'refers to "{target[:60]}", {where}')
+            return
+        if found in here.used or found is self.document.root:
+            self.document.refuse(element, f'refers to "{target[:60]}", which it is part of')
+            return
+        x, y = _px(element.get("x"), 0.0, here.size[0]), _px(element.get("y"), 0.0, here.size[1])
+        here = replace(here, matrix=times(here.matrix, (1.0, 0.0, 0.0, 1.0, x, y)), used=(*here.used, found))
+        if local(found) == "symbol":
+            style = self._styles.of(found, here.style)
+            if self._painted(found, style):
+                inside = replace(here, style=style, matrix=times(here.matrix, self._transform(found, style)))
+                self._refused_effects(found, style, inside)
+                self._viewport(found, inside, (element.get("width", ""), element.get("height", "")))
+        else:
+            self._visit(found, here)
+
+    def _draw(self, element: ET.Element, here: _Here) -> None:
+        style = here.style
+        fill, stroke = (paint_of(self.document, element, style, what) for what in ("fill", "stroke"))
+        width = _px(style["stroke-width"], 1.0, float(np.hypot(*here.size)) / 2**0.5)
+        stroke = stroke if width > 0 else ""
+        if style["visibility"] != "visible" or not (fill or stroke):
+            return
+        try:
+            outline = outline_of(element, here.size).moved(here.matrix)
+        except ValueError as error:
+            self.document.refuse(element, str(error))
+            return
+        if not len(outline.points):
+            return
+        self._count(element, outline)
+        if not (np.abs(outline.points) <= MAX_REACH_MM).all():
+            self.document.refuse(element, f"reaches further than {MAX_REACH_MM / 1e6:g} km from the page")
+            return
+        self._within_frames(outline, here)
+        if stroke:
+            self._stroke_notes(element, style, here)
+        breadth = self._breadth(style, width, here)
+        self.shapes.append(
+            Shape(outline, here.label, element.get("id", ""), fill, style["fill-rule"], stroke, breadth)
+        )
+
+    def _count(self, element: ET.Element, outline: Outline) -> None:
+        self._points += len(outline.points)
+        if len(self.shapes) >= MAX_SHAPES or self._points > MAX_POINTS:
+            words = f"more than {MAX_SHAPES:,} shapes or {MAX_POINTS:,} points"
+            raise self.document.fault(f"{words}, once every use in it is followed", element)
+
+    def _breadth(self, style: Style, width: float, here: _Here) -> float:
+        if style.get("vector-effect") == "non-scaling-stroke":
+            return width * spread(self.page.matrix)[0]
+        most, least = spread(here.matrix)
+        if most > 1.01 * least and style["stroke"] != "none":
+            self.document.note("lines under a lopsided transform have their mean breadth")
+        return width * float((most * least) ** 0.5)
+
+    def _stroke_notes(self, element: ET.Element, style: Style, here: _Here) -> None:
+        if style["stroke-dasharray"] not in ("none", "0"):
+            self.document.note("dashed lines are taken as whole ones")
+        if any(style[name] != "none" for name in ("marker-start", "marker-mid", "marker-end")):
+            self.document.refuse(element, f"has markers at its ends; {EXPAND}")
+
+    def _refused_effects(self, element: ET.Element, style: Style, here: _Here) -> None:
+        for name in ("mask", "filter"):
+            if style.get(name, "none") not in ("none", ""):
+                self.document.refuse(element, f"has a {name}; {EXPAND}")
+        clip = URL.fullmatch(style.get("clip-path", "none"))
+        if clip is None:
+            if style.get("clip-path", "none") not in ("none", ""):
+                self.document.refuse(element, f"is clipped; {EXPAND}")
+        elif not self._clips_nothing(clip[1], here):
+            self.document.refuse(element, f"is clipped; {EXPAND}")
+
+    def _clips_nothing(self, target: str, here: _Here) -> bool:
+        """Whether a clip is a mere frame round the page, as Figma and Illustrator set one about all."""
+        clip = self.document.by_id.get(target[1:]) if target.startswith("#") else None
+        if clip is None or clip.get("clipPathUnits") == "objectBoundingBox" or clip.get("clip-path"):
+            return clip is None
+        inner = [child for child in children(clip) if local(child) not in _PASSED]
+        if len(inner) != 1 or local(inner[0]) not in ("rect", "path", "polygon"):
+            return False
+        matrix = times(here.matrix, self._transform(clip, clip.attrib))
+        matrix = times(matrix, self._transform(inner[0], inner[0].attrib))
+        try:
+            return _covers(outline_of(inner[0], here.size).moved(matrix), self.page.width, self.page.height)
+        except ValueError:
+            return False
+
+    def _within_frames(self, outline: Outline, here: _Here) -> None:
+        """Refuse what a nested page or a symbol would cut off at its frame."""
+        low, high = outline.points.min(axis=0), outline.points.max(axis=0)
+        for element, frame, matrix in here.frames:
+            corners = moved(frame.points, matrix)
+            slack = FRAME_SLACK * np.ptp(corners, axis=0)
+            if (low < corners.min(axis=0) - slack).any() or (high > corners.max(axis=0) + slack).any():
+                self.document.refuse(element, f"cuts off what reaches beyond its frame; {EXPAND}")
+
+
+_SILENT = """
+defs symbol clipPath mask pattern linearGradient radialGradient meshgradient hatch solidcolor filter marker
+style script title desc metadata view cursor font font-face glyph animate animateTransform animateMotion
+animateColor set color-profile
+"""
+_PASSED = frozenset(_SILENT.split())
+"""Elements that paint nothing where they stand."""
+
+
+def _px(text: str | None, default: float, whole: float) -> float:
+    value = parse_px(text, whole)
+    return default if value is None else value
+
+
+def _box(x: float, y: float, width: float, height: float) -> Outline:
+    return polyline(np.array([[x, y], [x + width, y], [x + width, y + height], [x, y + height]]), True)
+
+
+def _covers(outline: Outline, width: float, height: float) -> bool:
+    """Whether an outline is an upright rectangle that holds the page."""
+    points = outline.points
+    low, high = points.min(axis=0), points.max(axis=0)
+    slack = FRAME_SLACK * max(width, height)
+    upright = (np.isclose(points, low, atol=1e-6) | np.isclose(points, high, atol=1e-6)).all()
+    corners = len(np.unique(np.round(points, 6), axis=0)) == 4
+    holds = (low <= slack).all() and (high >= np.array([width, height]) - slack).all()
+    return bool(upright and corners and holds)
+
+
+def _label(element: ET.Element, outer: str, top: bool) -> str:
+    """Return the name of the layer that the marks in a group belong to.
+
+    Inkscape's layers say so; elsewhere they are the groups directly in the root.
+    """
+    layer = element.get(f"{{{INKSCAPE}}}groupmode") == "layer"
+    if not (layer or top):
+        return outer
+    name = element.get(f"{{{INKSCAPE}}}label") or element.get(f"{{{SERIF}}}id") or element.get("id") or ""
+    # Illustrator writes what an id may not hold as _x20_.
+    name = _LAYER_CODE.sub(lambda code: chr(int(code[1], 16)), name)
+    return " ".join(name.split()) or outer

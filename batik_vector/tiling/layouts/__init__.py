@@ -1,0 +1,53 @@
+"""Layouts: how copies of one motif are set out. The catalogue is ``LAYOUTS``.
+
+A layout is measured in motif units and returns either the affine images of the motif, or an iterated
+system of maps where it bends the motif. Those of :mod:`~batik_vector.tiling.layouts.grounds` are worked out
+on the lattice of the repeat instead.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, TypeAlias
+
+from batik_vector.fields import OneOf
+from batik_vector.tiling.layouts.base import Bend, Layout, Pair
+from batik_vector.tiling.layouts.copies import Free, Lattice, Mirror, Ring, RosetteLayout, Single, Spot
+from batik_vector.tiling.layouts.grounds import Clear, Stripes, Toss
+from batik_vector.tiling.layouts.systems import Julian, MapSpec, System, Term
+
+LAYOUTS: dict[str, type[Layout]] = {
+    "single": Single,
+    "julian": Julian,
+    "ring": Ring,
+    "mirror": Mirror,
+    "rosette": RosetteLayout,
+    "free": Free,
+    "lattice": Lattice,
+    "toss": Toss,
+    "stripes": Stripes,
+    "ifs": System,
+}
+
+AnyLayout: TypeAlias = Annotated[Layout, OneOf(lambda: LAYOUTS, "layout")]
+
+__all__ = [
+    "LAYOUTS",
+    "AnyLayout",
+    "Bend",
+    "Clear",
+    "Free",
+    "Julian",
+    "Lattice",
+    "Layout",
+    "MapSpec",
+    "Mirror",
+    "Pair",
+    "Ring",
+    "RosetteLayout",
+    "Single",
+    "Spot",
+    "Stripes",
+    "System",
+    "Term",
+    "Toss",
+]

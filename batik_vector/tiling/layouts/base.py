@@ -1,0 +1,40 @@
+"""What a layout is: copies of a motif, or a bending of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, ClassVar, TypeAlias
+
+from batik_vector.fields import Between, check
+from batik_vector.geometry.ifs import Ifs
+from batik_vector.geometry.maps.affine import Affine
+
+Pair: TypeAlias = tuple[Annotated[float, Between(-1e4, 1e4)], Annotated[float, Between(-1e4, 1e4)]]
+"""A vector in motif units."""
+
+
+@dataclass(frozen=True)
+class Bend:
+    """Images that are no affine copies: the motif is moved by ``first`` and carried through ``system``."""
+
+    first: Affine
+    system: Ifs
+
+
+def carried(first: Affine, system: Ifs) -> list[Affine] | Bend:
+    """Return what a system makes of a motif that ``first`` has moved: copies where no map bends."""
+    affine = system.affine_images()
+    return Bend(first, system) if affine is None else [image @ first for image in affine]
+
+
+class Layout:
+    """What every layout offers. ``spreads`` says whether a placement's width measures all copies together."""
+
+    spreads: ClassVar[bool] = True
+
+    def __post_init__(self) -> None:
+        check(self)
+
+    def images(self, cell: tuple[float, float]) -> list[Affine] | Bend:
+        """Return the images of the motif; ``cell`` is the repeat's width and height in motif units."""
+        raise NotImplementedError

@@ -1,0 +1,52 @@
+"""Slits and strips along the seam are told of; a drawing's own are not."""
+
+from __future__ import annotations
+
+import pytest
+
+from batik_vector.certificate import Kind, certify
+from tests.certificate.test_crossings import shrunk
+from tests.certificate.tiles import AREAS, LINES, PEN, WAX, accused, added, tile
+
+
+def test_a_slit_that_neither_edge_shows() -> None:
+    broken = shrunk(shrunk(tile(), 100, 0.006), 0, -0.006)
+    fault = accused(broken, Kind.SLIVER, (0, 23))
+    assert fault.amount == pytest.approx(0.012)
+    assert "a slit of bare ground 0.012 mm wide" in fault.words
+    assert [each.kind for each in certify(broken).faults] == [Kind.SLIVER]
+    assert certify(broken).worst.slivers == pytest.approx(6, abs=0.01)
+
+
+@pytest.mark.parametrize("x", [0.0, 0.1, 99.7])
+def test_a_strip_of_ink_along_the_seam(x: float) -> None:
+    broken = added(tile(), WAX, areas=[[(x, 40), (x + 0.01, 40), (x + 0.01, 55), (x, 55)]])
+    fault = accused(broken, Kind.SLIVER, (x, 47.5))
+    assert fault.amount == pytest.approx(0.01)
+    assert "strip of ink" in fault.words
+
+
+def test_a_strip_along_the_lower_edge() -> None:
+    broken = added(tile(), WAX, areas=[[(10, 0.2), (25, 0.2), (25, 0.212), (10, 0.212)]])
+    assert "along the lower edge" in accused(broken, Kind.SLIVER, (17, 0.2)).words
+
+
+def test_two_lines_side_by_side_along_the_seam() -> None:
+    broken = added(tile(), PEN, lines=[[(0.004, 40), (0.004, 55)], [(99.996, 41), (99.996, 52)]])
+    fault = accused(broken, Kind.SLIVER, (0, 46))
+    assert "two lines side by side" in fault.words
+
+
+def test_a_strip_like_those_elsewhere_is_the_drawings_own() -> None:
+    strips = [[(x, 40), (x + 0.01, 40), (x + 0.01, 55), (x, 55)] for x in (0.1, 20.1, 40.1)]
+    assert certify(added(tile(), WAX, areas=strips)).faults == ()
+
+
+def test_a_mark_that_reaches_over_the_seam_by_a_hair_is_no_strip() -> None:
+    areas = [*AREAS, [(-0.01, 40), (9, 40), (9, 50), (-0.01, 50)]]
+    assert certify(tile(areas=areas, lines=LINES)).faults == ()
+
+
+def test_slanting_needles_at_the_seam_are_the_drawings_own() -> None:
+    needle = [(-3, 40), (3, 46), (3, 46.01), (-3, 40.01)]
+    assert certify(tile(areas=[*AREAS, needle])).faults == ()
