@@ -149,7 +149,7 @@ def _limit(name: str, metavar: str, says: str) -> Callable[[Any], Any]:
 @_limit("near", "MM", "How near to the seam slivers are looked for.  [default: 0.5]")
 @_limit("thin", "MM", "What is thinner along the seam is a sliver.  [default: 0.02]")
 @_limit("double", "MM", "Lines this close are drawn twice.  [default: 0.005]")
-@_limit("striping", "%", "Unevenness of columns or rows that is a fault.  [default: none is]")
+@_limit("striping", "%", "Unevenness of columns or rows that is a fault; without it none is.")
 @click.option("--pointers", metavar="DIR", help="Write NAME-check.svg with a mark at each fault.")
 @_json
 def check_command(

@@ -336,7 +336,9 @@ def warnings(recipe: Recipe, artwork: Artwork) -> list[str]:
     if not recipe.border:
         found += [f'ink "{name}" draws nothing' for name in recipe.ink if name not in drawn]
     for number, output in enumerate(recipe.output):
-        if isinstance(output, PngOutput) and piece_of(recipe, output) == Piece.TILE:
+        # A picture of several repeats is a preview, and no tile to print from.
+        tile = piece_of(recipe, output) == Piece.TILE
+        if isinstance(output, PngOutput) and tile and output.repeat == (1, 1):
             advice = pixel_advice(artwork.cell, output.dpi)
             found += [f"output[{number}]: {advice}"] if advice else []
     return found

@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 from click.testing import CliRunner, Result
 
+from batik_vector.certificate import Limits
 from batik_vector.cli import cli
 from batik_vector.compiler import compile_recipe
 from batik_vector.export import write_artwork
@@ -146,6 +147,8 @@ def test_the_whole_tile_passes_however_it_is_written(desk: Path, rewritten: Any)
     assert facts["certificate"]["measures"]["crossings"] == 12
     assert facts["certificate"]["symmetry"]["found"] == "p4"
     assert facts["checked"] == "geometry"
+    # Discs in the corners reach beyond the page, which shows a quarter of each.
+    assert facts["layers"][0]["covers"] == pytest.approx(0.125, abs=0.001)
 
 
 def test_a_drop_is_believed_as_it_is_told(desk: Path) -> None:
@@ -176,6 +179,14 @@ def test_limits_can_be_widened() -> None:
     assert call(TILES / "edge-moved.svg", "--position", "0.1").exit_code == 0
     assert call(TILES / "sliver.svg", "--thin", "0.001").exit_code == 0
     assert call(TILES / "good.svg", "--striping", "5").exit_code == 1
+
+
+def test_the_help_tells_the_true_defaults() -> None:
+    words = " ".join(CliRunner().invoke(cli, ["check", "--help"]).stdout.split())
+    for name in ("position", "tangent", "near", "thin", "double"):
+        default = re.search(rf"--{name} [A-Z]+ [^\[]*\[default: ([\d.]+)\]", words)
+        assert default, name
+        assert float(default[1]) == getattr(Limits(), name)
 
 
 def test_pointers_show_each_fault_in_a_drawing_of_its_own(desk: Path) -> None:
@@ -254,6 +265,55 @@ def test_our_own_drawing_that_was_changed_is_told_of(desk: Path) -> None:
     path.write_text(re.sub(r'width="640mm"', 'width="660mm"', text))
     facts = checked(path, code=1)
     assert facts["broken"] == ["the page is 660 × 320 mm, and the recipe in it promises 640 × 320 mm"]
+
+
+SQUARE = """
+title = "Square"
+[motif.square]
+kind = "rosette"
+elements = [{ curve = { kind = "polygon", sides = 4, radius = 1.41421356 }, turn = 45 }]
+[[place]]
+motif = "square"
+scale = "10 mm"
+at = ["10 mm", "20 mm"]
+[tile]
+size = ["40 mm", "40 mm"]
+"""
+
+
+@pytest.mark.parametrize("output", ["", '[[output]]\nformat = "svg"\nrepeat = [2, 3]'])
+def test_a_border_meant_to_run_along_the_seam_is_no_fault(desk: Path, output: str) -> None:
+    Path("k.toml").write_text(SQUARE + output)
+    assert CliRunner().invoke(cli, ["compile", "k.toml"]).exit_code == 0
+    assert checked("k.svg")["passed"]
+    # Without its recipe nobody knows that it is meant.
+    text = re.sub("<metadata>.*</metadata>", "", Path("k.svg").read_text("utf-8"), flags=re.DOTALL)
+    Path("bare.svg").write_text(text)
+    assert checked("bare.svg", code=1)["certificate"]["faults"][0]["kind"] == "unpaired"
+
+
+def test_a_file_that_shows_no_tile_says_what_it_shows(desk: Path) -> None:
+    cloth = compiled('[yardage]\nwidth = "900 mm"\nlength = "400 mm"')
+    result = call(cloth)
+    assert result.exit_code == 2
+    assert "k.svg: shows the cloth, and not the tile that fills it: check its recipe instead" in result.stderr
+    assert call("k.toml").exit_code == 0
+
+
+@pytest.mark.parametrize(
+    ("place", "asked"), [("", "p4"), ('symmetry = "p2"', None), ('phase = ["5 mm", "0 mm"]', None)]
+)
+def test_the_symmetry_that_a_recipe_promises_is_asked_for(desk: Path, place: str, asked: str | None) -> None:
+    text = CROSSING.replace('"half-drop"', '"p4"').replace('at = ["20 mm"', f'{place}\nat = ["20 mm"')
+    Path("k.toml").write_text(text)
+    assert checked("k.toml")["certificate"]["symmetry"]["asked"] == asked
+    if asked:
+        assert checked("k.toml", "--group", "p6", code=1)["certificate"]["symmetry"]["asked"] == "p6"
+
+
+def test_a_stretch_is_told(desk: Path) -> None:
+    Path("k.toml").write_text(CROSSING.replace('"half-drop"', '"grid"\nfit = { width = "642 mm" }'))
+    assert checked("k.toml")["notes"] == ["stretched to fit: +0.313 % across, +0 % along the cloth"]
 
 
 def test_a_recipe_that_cannot_be_read_leaves_a_drawing(desk: Path) -> None:

@@ -7,16 +7,44 @@ from pathlib import Path
 
 import pytest
 
-from batik_vector import compile_recipe, load_recipe
-from batik_vector.artwork import Artwork, violations
+from batik_vector import certify, compile_cloth, compile_recipe, load_recipe
+from batik_vector.artwork import Artwork, Layer, violations
+from batik_vector.certificate.symmetry import found_group
 from batik_vector.compiler import inspect
 from batik_vector.export import FORMATS, render
 from batik_vector.export.options import PngOptions
+from batik_vector.outlines import to_polygons, to_polylines, together
 from batik_vector.tiling.field import repeated
+from batik_vector.tiling.torus import to_mm
+from batik_vector.tiling.yardage import Yardage
 from tests.tiling.test_seamless import assert_line_ends_meet, crossings, cuts, difference, rolled, twins
 
 FOLDER = Path(__file__).resolve().parent.parent / "samples"
 SAMPLES = sorted(path.stem for path in FOLDER.glob("*.toml"))
+TILES = [name for name in SAMPLES if load_recipe(FOLDER / f"{name}.toml").tile]
+CLOTHS = [name for name in SAMPLES if load_recipe(FOLDER / f"{name}.toml").yardage]
+
+COPIES = {
+    "p1": 1,
+    "p2": 2,
+    "pm": 2,
+    "pg": 2,
+    "cm": 4,
+    "pmm": 4,
+    "pmg": 4,
+    "pgg": 4,
+    "cmm": 8,
+    "p4": 4,
+    "p4m": 8,
+    "p4g": 8,
+    "p3": 6,
+    "p3m1": 12,
+    "p31m": 12,
+    "p6": 12,
+    "p6m": 24,
+}
+"""Copies of an asymmetric motif in the rectangular cell of each wallpaper group."""
+FRIEZES = ("p1", "p11g", "p11m", "p1m1", "p2", "p2mg", "p2mm")
 
 PAPER = {
     "four-square",
@@ -30,12 +58,29 @@ def compiled(name: str) -> Artwork:
     return compile_recipe(load_recipe(FOLDER / f"{name}.toml"))
 
 
+@functools.cache
+def cloth(name: str) -> Yardage:
+    return compile_cloth(load_recipe(FOLDER / f"{name}.toml"))
+
+
+def collected(page: Yardage) -> Artwork:
+    """The whole page as one artwork."""
+    layers = []
+    for number, plate in enumerate(page.plates):
+        if plate.guide:
+            continue
+        areas, lines = together(list(page.areas(number))), together(list(page.lines(number)))
+        marks = (to_mm(to_polygons(areas)), to_mm(to_polylines(lines)))
+        layers.append(Layer(plate.ink, *marks, tuple(areas.names), tuple(lines.names)))
+    return Artwork(page.title, page.cell, tuple(layers), bleed=page.bleed)
+
+
 def test_the_papers_figures_and_six_designs_more_are_there() -> None:
     assert set(SAMPLES) >= PAPER
     assert len(set(SAMPLES) - PAPER) >= 6
 
 
-@pytest.mark.parametrize("name", SAMPLES)
+@pytest.mark.parametrize("name", TILES)
 def test_the_tile_is_sound_and_its_opposite_edges_are_bit_identical(name: str) -> None:
     artwork = compiled(name)
     assert violations(artwork) == []
@@ -52,7 +97,7 @@ def test_the_tile_is_sound_and_its_opposite_edges_are_bit_identical(name: str) -
             assert_line_ends_meet(layer, cell)
 
 
-@pytest.mark.parametrize("name", SAMPLES)
+@pytest.mark.parametrize("name", TILES)
 def test_the_field_cut_elsewhere_is_the_tile(name: str) -> None:
     artwork = compiled(name)
     field = repeated(artwork, 2, 2)
@@ -62,12 +107,38 @@ def test_the_field_cut_elsewhere_is_the_tile(name: str) -> None:
         assert abs(difference(layer.areas, areas)) < 1e-6
 
 
+@pytest.mark.parametrize("name", TILES)
+def test_the_certificate_passes(name: str) -> None:
+    certificate = certify(compiled(name), symmetry=False)
+    assert certificate.passed, certificate.faults
+
+
+@pytest.mark.parametrize("asked", COPIES)
+def test_the_group_in_the_drawing_is_the_one_asked_for(asked: str) -> None:
+    artwork = compiled(f"group-{asked}")
+    found = found_group(artwork.layers, artwork.cell)
+    # More copies than these, or another name, would be a symmetry that nobody asked for.
+    assert (found.name, found.copies) == (asked, COPIES[asked])
+
+
+@pytest.mark.parametrize("name", CLOTHS)
+def test_the_cloth_is_sound(name: str) -> None:
+    page = cloth(name)
+    assert violations(collected(page)) == []
+
+
+def test_there_is_a_border_of_every_frieze_that_closes_a_rectangle() -> None:
+    for frieze in FRIEZES:
+        recipe = load_recipe(FOLDER / f"border-{frieze}.toml")
+        assert any(border.frieze == frieze and len(border.sides) == 4 for border in recipe.border)
+
+
 @pytest.mark.parametrize("name", SAMPLES)
 def test_every_format_is_written(name: str) -> None:
-    artwork = compiled(name)
+    page = compiled(name) if name in TILES else cloth(name)
     for format_ in FORMATS:
         options = PngOptions(dpi=15) if format_ == "png" else None
-        assert len(render(artwork, format_, options)) > 1000
+        assert len(render(page, format_, options)) > 1000
 
 
 @pytest.mark.parametrize("name", SAMPLES)

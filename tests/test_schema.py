@@ -103,6 +103,15 @@ BEYOND = {
         "several inks",
     ),
     *("huge tile", "open table", "broken table", "key twice", "ink twice"),
+    *(
+        "a group that the repeat does not admit",
+        "a group that the cell does not fit",
+        "an impossible stretch",
+        "a tile larger than the machine",
+        "a fit to an absurd size",
+        "half a mirror repeat",
+        "a phase beyond all bounds",
+    ),
 }
 """What no schema can say: how values hang together; and what is no TOML."""
 

@@ -40,9 +40,10 @@ class Crossings:
 
     @property
     def paired(self) -> NDArray[np.int64]:
-        """Where the borders of both edges meet; the circle's beginning is left out."""
-        ends = np.intersect1d(self.here.ravel(), self.there.ravel())
-        return np.asarray(ends[(ends > 0) & (ends < self.seam.length)])
+        """Where the borders of both edges meet."""
+        near, far = (_ends(covered, self.seam.length) for covered in (self.here, self.there))
+        both = np.intersect1d(2 * near.along + near.sort, 2 * far.along + far.sort)
+        return np.unique(both // 2)
 
     @property
     def measures(self) -> Measures:
@@ -54,15 +55,17 @@ class Crossings:
         return [float(low + high) / 2 for low, high in self.breaks.tolist()]
 
     def events(self, number: int) -> tuple[Events, Events]:
-        """Return the crossings of near and far edge, sorted by whether ink begins or ends there."""
-        return _events(self.here, number, self.seam.length), _events(self.there, number, self.seam.length)
+        """Return the crossings of near and far edge, sorted by ink and by whether it begins or ends there."""
+        near, far = (_ends(covered, self.seam.length) for covered in (self.here, self.there))
+        return Events(near.along, near.sort + 3 * number), Events(far.along, far.sort + 3 * number)
 
 
-def _events(covered: Intervals, number: int, length: int) -> Events:
-    ends = covered.ravel()
-    sort = 3 * number + np.tile([0, 1], len(covered))
-    inner = (ends > 0) & (ends < length)
-    return Events(ends[inner], sort[inner])
+def _ends(covered: Intervals, length: int) -> Events:
+    """Return where ink begins and ends on a circle, given as intervals that are cut at its beginning."""
+    ends, sort = covered.ravel(), np.tile([0, 1], len(covered))
+    if len(covered) and covered[0, 0] == 0 and covered[-1, 1] == length:
+        ends, sort = ends[1:-1], sort[1:-1]
+    return Events(ends % length, sort)
 
 
 def area_crossings(ink: InkDrawing, seam: Seam, borders: Borders, limits: Limits, finer: int) -> Crossings:

@@ -9,12 +9,13 @@ there afterwards, and nothing beside it.
 from __future__ import annotations
 
 import contextlib
+import io
 import os
 import secrets
 import stat
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
-from typing import BinaryIO, TypeAlias
+from typing import Any, BinaryIO, TypeAlias
 
 from batik_vector.errors import ExportError
 
@@ -89,7 +90,7 @@ class _Batch:
             if isinstance(data, bytes):
                 _write(handle, data)
             else:
-                with open(handle, "wb", buffering=BUFFER, closefd=False) as sink:
+                with io.BufferedWriter(_Raw(handle), BUFFER) as sink:
                     data(sink)
             os.fsync(handle)
         finally:
@@ -125,6 +126,25 @@ class _Batch:
         for leftover in (*self._temps.values(), *self._backups.values()):
             with contextlib.suppress(OSError):
                 leftover.unlink()
+
+
+class _Raw(io.RawIOBase):
+    """An open file, for a buffer to write to. Closing it leaves the file open."""
+
+    def __init__(self, handle: int) -> None:
+        self._handle = handle
+
+    def writable(self) -> bool:
+        return True
+
+    def seekable(self) -> bool:
+        return True
+
+    def seek(self, offset: int, whence: int = os.SEEK_SET) -> int:
+        return os.lseek(self._handle, offset, whence)
+
+    def write(self, data: Any) -> int:
+        return os.write(self._handle, data)
 
 
 def _neighbour(path: Path) -> Path:

@@ -25,7 +25,7 @@ from batik_vector.export.numbers import WORD, Style, Words, digit_words, put, te
 from batik_vector.export.options import Curves, PdfInks, PdfOptions
 from batik_vector.export.palette import rgb, xml_label
 from batik_vector.export.provenance import NAMESPACE, xml_fields
-from batik_vector.export.strokes import CONTROL, CURVE, LINE, MOVE, PULL, Strokes, strokes
+from batik_vector.export.strokes import CONTROL, CURVE, LINE, MOVE, PULL, Strokes, strokes, trim_of
 from batik_vector.export.walk import Outlines, walk
 from batik_vector.units import STEPS_PER_MM
 
@@ -240,7 +240,8 @@ class _PdfSurface:
 
     def _drawn(self, outlines: Outlines) -> Strokes:
         margins = self._page.page.margins
-        return strokes(outlines.moved(margins.left, margins.bottom), self._tolerance)
+        moved = outlines.moved(margins.left, margins.bottom)
+        return strokes(moved, self._tolerance, trim_of(self._page.page, margins.bottom))
 
     def _layer(self) -> None:
         if self._layer_count:

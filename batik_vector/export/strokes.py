@@ -3,15 +3,26 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
+from batik_vector.artwork import Page
 from batik_vector.outlines import Offsets, Outlines, Steps
 from batik_vector.units import STEPS_PER_MM
 
+Trim: TypeAlias = tuple[int, int, int, int]
+"""Left, lower, right and upper edge of the trimmed page, in the steps of the outlines."""
+
 MOVE, LINE, CONTROL, PULL, CURVE = range(5)
 """What a point is: where a ring begins, the end of a line, and the three points of a cubic Bézier."""
+
+
+def trim_of(page: Page, below: int) -> Trim:
+    """Return the trim of a page whose lower edge, as the outlines have it, lies ``below`` the trim's."""
+    left, cell = page.margins.left, page.cell
+    return left, below, left + cell.columns, below + cell.rows
 
 
 @dataclass(frozen=True)
@@ -42,12 +53,17 @@ def straight(outlines: Outlines) -> Strokes:
     return Strokes(outlines.points, kinds, outlines.rings, outlines.marks, outlines.closed)
 
 
-def curved(outlines: Outlines, tolerance: float) -> Strokes:
-    """Return outlines drawn with cubic Béziers that stay within a tolerance (mm) of them."""
+def curved(outlines: Outlines, tolerance: float, trim: Trim) -> Strokes:
+    """Return outlines drawn with cubic Béziers that stay within a tolerance (mm) of them.
+
+    A curve keeps a node wherever it meets the trim, since its other half stands on the opposite edge.
+    """
     from batik_vector.geometry.bezier import fit_cubics
 
     around, ends = outlines.repeating()
-    cubics = fit_cubics(around / STEPS_PER_MM, ends, outlines.closed, tolerance)
+    left, low, right, top = (edge / STEPS_PER_MM for edge in trim)
+    edges = (left, right), (low, top)
+    cubics = fit_cubics(around / STEPS_PER_MM, ends, outlines.closed, tolerance, edges)
     control = np.rint(np.asarray(cubics.points) * STEPS_PER_MM).astype(np.int64)
     offsets = np.asarray(cubics.offsets, np.int64)
     count = np.diff(offsets)
@@ -73,6 +89,6 @@ def curved(outlines: Outlines, tolerance: float) -> Strokes:
     return Strokes(points[used], kinds[used], before[rank], outlines.marks, outlines.closed)
 
 
-def strokes(outlines: Outlines, tolerance: float | None) -> Strokes:
+def strokes(outlines: Outlines, tolerance: float | None, trim: Trim) -> Strokes:
     """Return outlines as lines, or as curves within a tolerance where one is given."""
-    return straight(outlines) if tolerance is None else curved(outlines, tolerance)
+    return straight(outlines) if tolerance is None else curved(outlines, tolerance, trim)

@@ -26,7 +26,7 @@ from batik_vector.export.numbers import WORD, Style, Words, digit_words, put, te
 from batik_vector.export.options import Curves, Profile, SvgOptions
 from batik_vector.export.palette import Ids, hex_colour, xml_label
 from batik_vector.export.provenance import NAMESPACE, xml_fields
-from batik_vector.export.strokes import CONTROL, CURVE, LINE, MOVE, Strokes, strokes
+from batik_vector.export.strokes import CONTROL, CURVE, LINE, MOVE, Strokes, strokes, trim_of
 from batik_vector.export.walk import Outlines, walk
 from batik_vector.units import STEPS_PER_MM, format_mm
 
@@ -160,7 +160,7 @@ class _SvgSurface:
             self._kind, self._points, self._unfinished = kind, 0, False
         margins = self._page.margins
         flipped = outlines.moved(margins.left, margins.bottom).flipped(self._rows)
-        drawn = strokes(flipped, self._tolerance)
+        drawn = strokes(flipped, self._tolerance, trim_of(self._page, margins.top))
         if self._compact:
             self._write_blocks(drawn, outlines.unfinished)
         else:

@@ -23,8 +23,10 @@ import numpy as np
 from batik_vector.errors import GeometryError
 from batik_vector.geometry.sampling import Array, Indices, Points
 from batik_vector.geometry.stretches import (
+    NO_EDGES,
     SAMPLING,
     Complex,
+    Edges,
     Mask,
     Runs,
     flatness,
@@ -75,7 +77,9 @@ class Cubics:
     straight: Mask
 
 
-def fit_cubics(coords: Points, offsets: Indices, closed: Mask, tolerance: float) -> Cubics:
+def fit_cubics(
+    coords: Points, offsets: Indices, closed: Mask, tolerance: float, edges: Edges = NO_EDGES
+) -> Cubics:
     """Fit cubic Béziers to polylines and rings.
 
     Corners stay nodes and long straight edges stay straight; all other joints share their tangent, save
@@ -89,6 +93,8 @@ def fit_cubics(coords: Points, offsets: Indices, closed: Mask, tolerance: float)
         offsets: shape (k + 1,): line i is ``coords[offsets[i]:offsets[i + 1]]``.
         closed: shape (k,): which lines are rings; these repeat their first point at the end.
         tolerance: mm. Fewer cubics the larger it is, as its sixth root.
+        edges: lines (mm) on which every vertex stays a node: those along which a tile was cut, where the
+            curve must meet its other half.
 
     Returns:
         The cubics. Neighbours share end points bit for bit. A ring ends where it begins, which is at
@@ -100,7 +106,7 @@ def fit_cubics(coords: Points, offsets: Indices, closed: Mask, tolerance: float)
     if not (np.isfinite(coords).all() and 0 < tolerance < np.inf):
         raise GeometryError("cannot fit curves to coordinates that are not finite, or without a tolerance")
     closed = np.asarray(closed, bool)
-    lines, breaks = read_lines(coords, np.asarray(offsets, np.intp), closed, tolerance)
+    lines, breaks = read_lines(coords, np.asarray(offsets, np.intp), closed, tolerance, edges)
     path, start, stop, smooth_ring = stretches(lines, closed, breaks)
     # A stretch of one edge has no vertices to bend it.
     bent = stop - start > 1

@@ -23,6 +23,10 @@ SAMPLING = 0.02
 FLAT = 0.001
 """Vertices this close (mm) to a line through others say nothing: the grid that geometry is kept on."""
 
+Edges = tuple[tuple[float, ...], tuple[float, ...]]
+"""Abscissas of upright lines and ordinates of level ones."""
+NO_EDGES: Edges = ((), ())
+
 CORNER = 0.62
 """A turn sharper than this (radians) is a corner: the circle of 12 vertices turns by 0.52, an octagon by
 0.79. Only details whose chords would stand off no more than ``SAMPLING`` may turn faster."""
@@ -93,13 +97,18 @@ def _wrap(angle: Array) -> Array:
     return np.asarray((angle + np.pi) % (2 * np.pi) - np.pi)
 
 
-def read_lines(coords: Points, offsets: Indices, closed: Mask, tolerance: float) -> tuple[Lines, Mask]:
-    """Return the polylines, without vertices that say nothing, and the breaks between their stretches."""
+def read_lines(
+    coords: Points, offsets: Indices, closed: Mask, tolerance: float, edges: Edges = NO_EDGES
+) -> tuple[Lines, Mask]:
+    """Return the polylines, without vertices that say nothing, and the breaks between their stretches.
+
+    Vertices on ``edges`` are breaks.
+    """
     at, line = _distinct(coords, offsets, closed)
     flat = flatness(tolerance)
-    keep = _bends(at, line, closed, flat)
+    keep = _bends(at, line, closed, flat) | _on(edges, at)
     lines = _lines(at[keep], line[keep], closed)
-    breaks = _breaks(lines, tolerance)
+    breaks = _breaks(lines, tolerance) | _on(edges, lines.at)
     # Where curves change sides they are flat too, and chords get too long there to tell how they bend.
     turn = np.abs(lines.turn)
     height = lines.length * np.maximum(turn, turn[lines.after]) / 8
@@ -110,8 +119,12 @@ def read_lines(coords: Points, offsets: Indices, closed: Mask, tolerance: float)
     if again.any():
         keep |= again
         lines = _lines(at[keep], line[keep], closed)
-        breaks = _breaks(lines, tolerance)
+        breaks = _breaks(lines, tolerance) | _on(edges, lines.at)
     return lines, breaks
+
+
+def _on(edges: Edges, at: Complex) -> Mask:
+    return np.isin(at.real, edges[0]) | np.isin(at.imag, edges[1])
 
 
 def _distinct(coords: Points, offsets: Indices, closed: Mask) -> tuple[Complex, Indices]:

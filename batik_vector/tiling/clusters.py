@@ -1,4 +1,4 @@
-"""Which marks belong together as one motif: what is left out with any of them where only whole motifs are kept.
+"""Which marks belong together as one motif: what is left out with any of them where whole motifs are kept.
 
 A tile no longer knows its motifs but by name ("flower.petal"). Marks of one motif that lie close, measured
 by their own size, are one copy of it: petals round their core. Where copies lie so close themselves that
@@ -64,7 +64,7 @@ def _hulls(marks: Outlines) -> Geometries:
     if not len(marks):
         return np.empty(0, dtype=object)
     owner = np.repeat(np.arange(len(marks)), marks.sizes())
-    points = shapely.points(marks.points.astype(float))
+    points = np.asarray(shapely.points(marks.points.astype(float)), dtype=object)
     return np.asarray(shapely.convex_hull(shapely.multipoints(points, indices=owner)), dtype=object)
 
 

@@ -98,14 +98,16 @@ def reaching(bounds: Steps, shift: Steps, window: Window, touch: Touch) -> Steps
 class Cuttings:
     """What the window's edge leaves of copies of marks.
 
-    Each of the ``pieces`` was cut by the edges in its row of ``edges``; copy k is the piece ``which[k]``,
-    moved by ``shift[k]``.
+    Each of the ``pieces`` is of the mark in ``mark`` and was cut by the edges in its row of ``edges``; copy k
+    is the piece ``which[k]``, moved by ``shift[k]``. ``corner`` tells which copies a bare corner has cut.
     """
 
     pieces: Outlines
+    mark: Index
     edges: Steps
     which: Index
     shift: Steps
+    corner: NDArray[np.bool_]
 
 
 def cuttings(marks: Outlines, mark: Index, shift: Steps, filling: Filling, touch: Touch) -> Cuttings:
@@ -113,7 +115,7 @@ def cuttings(marks: Outlines, mark: Index, shift: Steps, filling: Filling, touch
     edges = reaching(marks.bounds()[mark], shift, filling.window, touch)
     ways, way = np.unique(edges, axis=0, return_inverse=True)
     names = np.asarray(marks.names, dtype=object)
-    made, windows = list[Outlines](), [np.empty((0, 4), np.int64)]
+    made, windows, marks_of = list[Outlines](), [np.empty((0, 4), np.int64)], [np.empty(0, np.intp)]
     which, shifts = [np.empty(0, np.intp)], [np.empty((0, 2), np.int64)]
     count = 0
     for number, rectangle in enumerate(ways):
@@ -123,11 +125,19 @@ def cuttings(marks: Outlines, mark: Index, shift: Steps, filling: Filling, touch
         first, last = (np.searchsorted(source, back, side=side) for side in ("left", "right"))
         copy, piece = numbers(first, last - 1)
         made.append(replace(pieces, names=names[one[source]].tolist()))
+        marks_of.append(one[source])
         windows.append(np.broadcast_to(rectangle, (len(source), 4)))
         which.append(piece + count)
         shifts.append(shift[copies[copy]])
         count += len(source)
-    cut = Cuttings(together(made), *(np.concatenate(each) for each in (windows, which, shifts)))
+    cut = Cuttings(
+        together(made),
+        np.concatenate(marks_of),
+        np.concatenate(windows),
+        np.concatenate(which),
+        np.concatenate(shifts),
+        np.zeros(sum(len(each) for each in which), bool),
+    )
     return _without_corners(cut, filling, touch == LINE)
 
 
@@ -178,9 +188,11 @@ def _without_corners(cut: Cuttings, filling: Filling, line: bool) -> Cuttings:
     rest = np.delete(np.arange(len(cut.which)), over)
     return Cuttings(
         together([cut.pieces, replace(pieces, names=names)]),
+        np.concatenate([cut.mark, cut.mark[cut.which[source]]]),
         np.concatenate([cut.edges, cut.edges[cut.which[source]]]),
         np.concatenate([cut.which[rest], len(cut.pieces) + np.arange(len(source))]),
         np.concatenate([cut.shift[rest], shift]),
+        np.arange(len(rest) + len(source)) >= len(rest),
     )
 
 

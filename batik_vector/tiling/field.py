@@ -9,9 +9,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from batik_vector.artwork import Artwork, Cell, DropAxis, Ink, Layer, Overlap
+from batik_vector.artwork import Artwork, Cell, DropAxis, Ink, Layer, Overlap, Page
 from batik_vector.errors import TooLargeError
-from batik_vector.outlines import MM, of_polygons, of_polylines, to_polygons, to_polylines, together
+from batik_vector.outlines import MM, Outlines, of_polygons, of_polylines, to_polygons, to_polylines, together
 from batik_vector.tiling.cutting import Filling
 from batik_vector.tiling.fill import filled_areas, filled_lines
 from batik_vector.tiling.stack import MAX_VERTICES
@@ -50,12 +50,25 @@ def _layer(layer: Layer, cell: Cell, window: Window) -> Layer:
     filling = Filling(cell, window, piece=MAX_VERTICES)
     areas = together(list(filled_areas(unrolled(layer, cell), filling, welds(layer.ink))))
     lines = together(list(filled_lines(unrolled(layer, cell, lines=True), filling)))
+    return _made(layer.ink, areas, lines)
+
+
+def collected(page: Page) -> Artwork:
+    """Return a page that comes in pieces as an artwork, without its guides: for pages that fit in memory."""
+    layers = []
+    for number, plate in enumerate(page.plates):
+        if plate.guide:
+            continue
+        areas, lines = together(list(page.areas(number))), together(list(page.lines(number)))
+        layers.append(_made(plate.ink, areas, lines))
+    kept = tuple(layer for layer in layers if len(layer.areas) or len(layer.lines))
+    return Artwork(page.title, page.cell, kept, page.cloth, page.tolerance, page.bleed, page.provenance)
+
+
+def _made(ink: Ink, areas: Outlines, lines: Outlines) -> Layer:
+    """Return a layer in mm from outlines in steps."""
     return Layer(
-        layer.ink,
-        to_mm(to_polygons(areas)),
-        to_mm(to_polylines(lines)),
-        tuple(areas.names),
-        tuple(lines.names),
+        ink, to_mm(to_polygons(areas)), to_mm(to_polylines(lines)), tuple(areas.names), tuple(lines.names)
     )
 
 

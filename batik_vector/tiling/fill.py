@@ -13,16 +13,20 @@ from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from batik_vector.outlines import (
     Index,
     Outlines,
     Steps,
+    of_polygons,
     of_polylines,
+    to_polygons,
     to_polylines,
+    together,
 )
-from batik_vector.tiling.chains import NO_SEAM, Chains, Copies, all_chains, chains_of
+from batik_vector.tiling.chains import Chains, Copies, all_chains, chains_of
 from batik_vector.tiling.cutting import (
     CROSS,
     LINE,
@@ -39,8 +43,8 @@ from batik_vector.tiling.once import drawn_once
 from batik_vector.tiling.paths import paths_of
 from batik_vector.tiling.rings import Rings, rings_of
 from batik_vector.tiling.torus import Window
-from batik_vector.tiling.unroll import Unrolled, halves, seam_ends
-from batik_vector.tiling.weld import components
+from batik_vector.tiling.unroll import Unrolled, seam_ends
+from batik_vector.tiling.weld import welded
 
 Seams = tuple[tuple[int, ...], tuple[int, ...]]
 """Abscissas of upright seams, ordinates of level ones."""
@@ -118,23 +122,18 @@ def filled_areas(
             heap.add_cut(cut, ((), ()), joins)
         else:
             yield from _taken(cut.pieces, cut.which, cut.shift, filling.piece)
-    _add_endless(heap, areas.endless, filling, touch)
-    if border is not None:
-        edges = filling.window
-        zero = np.zeros((len(border), 2), np.int64)
-        if joins:
-            heap.add(
-                border, np.arange(len(border)), zero, ((edges.left, edges.right), (edges.bottom, edges.top))
-            )
-        else:
-            yield from _taken(border, np.arange(len(border)), zero, filling.piece)
+    _add_endless(heap, areas, filling, touch)
+    if border is not None and joins:
+        heap.add_border(border, filling.window)
+    elif border is not None:
+        yield from _taken(border, np.arange(len(border)), np.zeros((len(border), 2), np.int64), filling.piece)
     if heap:
         yield from heap.welded(weld, filling.piece)
 
 
-def _add_endless(heap: _Heap, pieces: Outlines, filling: Filling, touch: Touch) -> None:
+def _add_endless(heap: _Heap, areas: Unrolled, filling: Filling, touch: Touch) -> None:
     """Add the copies of pieces of endless marks that lie in the window, cut where its edge crosses them."""
-    window, cell = filling.window, filling.cell
+    pieces, window, cell = areas.endless, filling.window, filling.cell
     bounds = pieces.bounds()
     low, high = window.bottom - 2 * cell.rows, window.top + 1
     mark, shift = placed(bounds, cell, window, low, high)
@@ -142,24 +141,38 @@ def _add_endless(heap: _Heap, pieces: Outlines, filling: Filling, touch: Touch) 
     mark, shift = mark[order], shift[order]
     over = crossing(pieces, mark, shift, filling, touch)
     seams = ((0, cell.columns), (0, cell.rows))
-    heap.add(pieces, mark[~over], shift[~over], seams)
-    heap.add_cut(cuttings(pieces, mark[over], shift[over], filling, touch), seams, touch == MEET)
+    heap.add(pieces, mark[~over], shift[~over], seams, areas.strand)
+    cut = cuttings(pieces, mark[over], shift[over], filling, touch)
+    heap.add_cut(cut, seams, touch == MEET, areas.strand[cut.mark])
 
 
 class _Heap:
-    """Copies of pieces of all kinds, gathered for welding: chains, and a name for each owner."""
+    """Copies of pieces of all kinds, gathered for welding: chains, and a name and strand for each owner."""
 
     def __init__(self) -> None:
         self._chains: list[Chains] = []
         self._count = self._owners = 0
         self._copies: list[tuple[Index, Steps, Index]] = []
         self._names: list[NDArray[np.object_]] = []
+        self._strands: list[Index] = []
+        self._corners: list[Outlines] = []
+        self._corner_seams: tuple[set[int], set[int]] = (set(), set())
 
     def __bool__(self) -> bool:
         return bool(self._chains)
 
-    def add(self, pieces: Outlines, which: Index, shift: Steps, seams: Seams) -> None:
-        """Add copies of pieces; ``seams`` are where these meet others, in their own coordinates."""
+    def add(
+        self, pieces: Outlines, which: Index, shift: Steps, seams: Seams, strand: Index | None = None
+    ) -> None:
+        """Add copies of pieces.
+
+        Args:
+            pieces: in their own coordinates, with names.
+            which: the piece that each copy is of.
+            shift: how far it is moved.
+            seams: where pieces meet others, in their own coordinates.
+            strand: a number for each piece: those of an overlay meet only others of their strand.
+        """
         if not len(which):
             return
         chains = chains_of(pieces, seams)
@@ -168,22 +181,29 @@ class _Heap:
         copy, row = numbers(first, last - 1)
         self._copies.append((of[row] + self._count, shift[copy], copy + self._owners))
         self._names.append(np.asarray(pieces.names, dtype=object)[which])
+        self._strands.append(np.zeros(len(which), np.intp) if strand is None else strand[which])
         self._chains.append(chains)
         self._count += len(chains)
         self._owners += len(which)
 
-    def add_cut(self, cut: Cuttings, seams: Seams, at_edge: bool) -> None:
+    def add_cut(self, cut: Cuttings, seams: Seams, at_edge: bool, strand: Index | None = None) -> None:
         """Add copies of cut pieces; the edges that cut them are seams too, where borders lie beyond."""
         if not at_edge:
-            self.add(cut.pieces, cut.which, cut.shift, seams)
+            self.add(cut.pieces, cut.which, cut.shift, seams, strand)
             return
         names = np.asarray(cut.pieces.names, dtype=object)
+        some = np.flatnonzero(cut.corner)
+        taken = cut.pieces.taken(cut.which[some], cut.shift[some])
+        self._corners.append(replace(taken, names=names[cut.which[some]].tolist()))
+        for axis in (0, 1):
+            lines = cut.shift[some, axis][:, None] + np.array(seams[axis], np.int64)
+            self._corner_seams[axis].update(np.unique(lines).tolist())
         ways, way = np.unique(cut.edges, axis=0, return_inverse=True)
         for number, (left, bottom, right, top) in enumerate(ways.tolist()):
             mine = np.flatnonzero(way.ravel() == number)
             place = np.full(len(cut.pieces), -1)
             place[mine] = np.arange(len(mine))
-            copies = np.flatnonzero(place[cut.which] >= 0)
+            copies = np.flatnonzero((place[cut.which] >= 0) & ~cut.corner)
             self.add(
                 replace(cut.pieces.taken(mine), names=names[mine].tolist()),
                 place[cut.which[copies]],
@@ -191,19 +211,26 @@ class _Heap:
                 ((*seams[0], left, right), (*seams[1], bottom, top)),
             )
 
+    def add_border(self, border: Outlines, window: Window) -> None:
+        """Add what lies outside the window, and meets the field at its edge and at rounded corners.
+
+        A corner is no line on which edges cancel: there GEOS welds.
+        """
+        beside = together([border, *self._corners])
+        joined, first = welded(to_polygons(beside))
+        made = of_polygons(np.asarray(shapely.orient_polygons(joined), dtype=object))
+        names = np.asarray(beside.names, dtype=object)[first].tolist()
+        x, y = (sorted(values) for values in self._corner_seams)
+        seams = ((*x, window.left, window.right), (*y, window.bottom, window.top))
+        each = np.arange(len(made))
+        self.add(replace(made, names=names), each, np.zeros((len(each), 2), np.int64), seams)
+
     def welded(self, weld: bool, piece: int) -> Iterator[Outlines]:
-        """Yield all areas, welded or as single marks, in pieces."""
+        """Yield all areas, welded or strand by strand, in pieces."""
         columns = (np.concatenate(each) for each in zip(*self._copies, strict=True))
         copies = Copies(all_chains(self._chains), *columns)
-        names = np.concatenate(self._names)
-        if weld:
-            yield from _written(rings_of(copies), names, piece)
-            return
-        edges = np.flatnonzero(copies.chains.axis[copies.which] != NO_SEAM)
-        _, code = np.unique(names.astype(str), return_inverse=True)
-        some = Copies(copies.chains, copies.which[edges], copies.shift[edges], copies.owner[edges])
-        body = components(len(names), np.column_stack(halves(some, code[some.owner])))
-        yield from _written(rings_of(copies, body[copies.owner], body), names, piece)
+        group = None if weld else np.concatenate(self._strands)[copies.owner]
+        yield from _written(rings_of(copies, group), np.concatenate(self._names), piece)
 
 
 def _written(rings: Rings, names: NDArray[np.object_], piece: int) -> Iterator[Outlines]:

@@ -341,5 +341,5 @@ def group_name(text: str) -> str:
     return text
 
 
-GROUP_PATTERN = r"^\s*(" + "|".join(re.escape(name) for name in group_names()) + r")\s*$"
+GROUP_PATTERN = r"^\s*(" + "|".join(re.escape(name).replace("x", "[x×]") for name in group_names()) + r")\s*$"
 """For editors, which know small letters only; :func:`group` is what decides."""

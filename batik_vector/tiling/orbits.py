@@ -14,10 +14,11 @@ import numpy as np
 import shapely
 
 from batik_vector.artwork import Geometries
-from batik_vector.errors import GeometryError
+from batik_vector.errors import GeometryError, TooLargeError
 from batik_vector.geometry.coincide import distinct
 from batik_vector.geometry.maps.affine import IDENTITY, Affine
 from batik_vector.geometry.sampling import Array
+from batik_vector.tiling.stack import MAX_REPEATS, MAX_VERTICES
 from batik_vector.tiling.torus import Window, lines_of, polygons_of, to_mm, wrap
 from batik_vector.units import STEPS_PER_MM
 
@@ -108,6 +109,9 @@ class Orbit:
         """Return marks (mm) wrapped by the periods, cut to the region, and all images of the pieces.
 
         Pieces on two sides of a mirror have the same vertices on it: they weld without a slit.
+
+        Raises:
+            TooLargeError: with the estimate, where a mark reaches over too many repeats.
         """
         if self.region is None or not len(marks):
             return marks
@@ -115,10 +119,25 @@ class Orbit:
         steps = np.asarray(shapely.transform(marks, lambda xy: xy * STEPS_PER_MM), dtype=object)
         low_x, low_y, high_x, high_y = shape.bounds
         window = Window(math.floor(low_x), math.floor(low_y), math.ceil(high_x), math.ceil(high_y))
+        self._refuse_too_many(steps, window)
         steps, _ = wrap(steps, np.zeros(len(steps), np.intp), self._lattice(), window)
         pieces = _within(steps, shape)
         images = [_on_steps(operation).apply(pieces) for operation in self.operations]
         return to_mm(_on_grid(np.concatenate(images)))
+
+    def _refuse_too_many(self, marks: Geometries, window: Window) -> None:
+        """Raise before so many translates are made that they would not fit in memory."""
+        low_x, low_y, high_x, high_y = shapely.bounds(marks).T
+        across, up = high_x - low_x + window.right - window.left, high_y - low_y + window.top - window.bottom
+        (ax, _), (_, by) = self._lattice()
+        # The stand-in for a missing period is so long that it counts as one repeat.
+        repeats = np.maximum(across / abs(ax), 1.0) * np.maximum(up / abs(by), 1.0)
+        total = float((repeats * shapely.get_num_coordinates(marks)).sum()) * len(self.operations)
+        if repeats.max() > MAX_REPEATS or total > MAX_VERTICES:
+            raise TooLargeError(
+                f"a mark reaches over about {repeats.max():,.0f} repeats, each of them cut and multiplied by "
+                f"{len(self.operations)}: expected a larger tile or smaller marks"
+            )
 
     def _lattice(self) -> tuple[tuple[int, int], tuple[int, int]]:
         """Return the periods in grid steps, with others so far apart that they never meet."""

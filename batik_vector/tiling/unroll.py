@@ -30,7 +30,8 @@ Meetings = tuple[Index, Index, Steps]
 class Unrolled:
     """The marks of one ink and kind: whole ones, each once, and the pieces in the cell of endless ones.
 
-    ``strand`` numbers, for each piece, the endless mark on the torus that it is of.
+    ``strand`` numbers, for each piece, the endless mark on the torus that it is of; the pieces of a strand do
+    not lie over one another.
     """
 
     whole: Outlines
@@ -70,18 +71,69 @@ def unrolled_areas(areas: Outlines, cell: Cell, weld: bool) -> Unrolled:
     chains = chains_of(pieces, ((0, cell.columns), (0, cell.rows)))
     meetings = _welds(chains, cell) if weld else _halves(chains, cell, names[cut])
     label, place, runs_on = followed(len(cut), meetings)
-    bounded = ~runs_on[chains.mark]
-    shift = (place @ lattice_of(cell))[chains.mark]
-    rows = np.flatnonzero(bounded)
-    copies = Copies(chains, rows, shift[rows], chains.mark[rows])
-    rings = rings_of(copies, label[chains.mark[rows]], label)
-    made = replace(whole(rings), names=names[cut][rings.owner].tolist())
-    made = _sound(made, rings.owner, pieces, label, place @ lattice_of(cell))
-    endless = np.flatnonzero(runs_on)
-    return Unrolled(
-        together([replace(areas.taken(alone), names=names[alone].tolist()), made]),
+    mixed = _mixed(pieces, label, place, runs_on)
+    marks = _Marks(pieces, names[cut], label, place @ lattice_of(cell))
+    endless = np.flatnonzero(runs_on & ~mixed)
+    found = Unrolled(
+        together(
+            [
+                replace(areas.taken(alone), names=names[alone].tolist()),
+                marks.joined(chains, np.flatnonzero(~runs_on & ~mixed)),
+                *(marks.united(mark) for mark in np.unique(label[~runs_on & mixed])),
+            ]
+        ),
         replace(pieces.taken(endless), names=names[cut][endless].tolist()),
         label[endless],
+    )
+    for mark in np.unique(label[runs_on & mixed]):
+        # Once its pieces are one in the cell, they may be followed as areas of a weld are.
+        found = _both(found, unrolled_areas(marks.united(mark, lifted=False), cell, weld=True), len(cut))
+    return found
+
+
+@dataclass(frozen=True)
+class _Marks:
+    """Pieces that seams divided, with their names, the mark of each, and how far it lies from the first's."""
+
+    pieces: Outlines
+    names: NDArray[np.object_]
+    label: Index
+    shift: Steps
+
+    def joined(self, chains: Chains, which: Index) -> Outlines:
+        """Return whole marks made of some pieces."""
+        rows = np.flatnonzero(np.isin(chains.mark, which))
+        mark = chains.mark[rows]
+        rings = rings_of(Copies(chains, rows, self.shift[mark], mark), self.label[mark], self.label)
+        return replace(whole(rings), names=self.names[rings.owner].tolist())
+
+    def united(self, mark: int, lifted: bool = True) -> Outlines:
+        """Return the union of the pieces of a mark, lifted off the torus or as they lie in the cell."""
+        mine = np.flatnonzero(self.label == mark)
+        shapes = to_polygons(self.pieces.taken(mine, self.shift[mine] if lifted else None))
+        union = shapely.union_all(shapes, grid_size=1.0)
+        found, _ = polygons_of(np.array([union], dtype=object), np.zeros(1, np.intp))
+        outlines = of_polygons(np.asarray(shapely.orient_polygons(found), dtype=object))
+        return replace(outlines, names=[self.names[mark]] * len(found))
+
+
+def _mixed(pieces: Outlines, label: Index, place: Steps, runs_on: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Return which pieces are of a mark of which some lie over one another, as only overlays have them."""
+    polygons = to_polygons(pieces)
+    a, b = shapely.STRtree(polygons).query(polygons)
+    one = (a < b) & (label[a] == label[b]) & (runs_on[a] | (place[a] == place[b]).all(axis=1))
+    a, b = a[one], b[one]
+    over = shapely.relate_pattern(polygons[a], polygons[b], "T********")
+    return np.isin(label, label[a[over]])
+
+
+def _both(one: Unrolled, other: Unrolled, strands: int) -> Unrolled:
+    """Return the marks of both; ``strands`` is more than any number of a strand of the first."""
+    after = max(strands, int(one.strand.max(initial=0)) + 1)
+    return Unrolled(
+        together([one.whole, other.whole]),
+        together([one.endless, other.endless]),
+        np.concatenate([one.strand, other.strand + after]),
     )
 
 
@@ -245,20 +297,3 @@ def followed(count: int, meetings: Meetings) -> tuple[Index, Steps, NDArray[np.b
     runs_on = np.zeros(count, bool)
     runs_on[label[a[(place[a] + step != place[b]).any(axis=1)]]] = True
     return label, place, runs_on[label]
-
-
-def _sound(made: Outlines, owner: Index, pieces: Outlines, label: Index, shift: Steps) -> Outlines:
-    """Return marks; what is no valid polygon, as pieces that lie over one another make, is united by GEOS."""
-    polygons = to_polygons(made)
-    bad = np.flatnonzero(~shapely.is_valid(polygons))
-    if not len(bad):
-        return made
-    names = np.asarray(made.names, dtype=object)
-    good = np.setdiff1d(np.arange(len(made)), bad)
-    parts = [replace(made.taken(good), names=names[good].tolist())]
-    for mark in bad.tolist():
-        mine = np.flatnonzero(label == owner[mark])
-        united = shapely.union_all(to_polygons(pieces.taken(mine, shift[mine])), grid_size=1.0)
-        found, _ = polygons_of(np.array([united], dtype=object), np.zeros(1, np.intp))
-        parts.append(replace(of_polygons(shapely.orient_polygons(found)), names=[names[mark]] * len(found)))
-    return together(parts)

@@ -136,8 +136,10 @@ def _any(marks: Unrolled) -> bool:
 class Yardage:
     """A cloth as a page that comes in pieces; see :class:`~batik_vector.artwork.Page`.
 
-    ``origin`` is where the tile's lower left corner lies, in steps; ``window`` what the field fills, from
-    there; ``tell`` is called with a word or two as each band is drawn.
+    ``origin`` is where the tile's lower left corner lies, in steps; ``filling`` says what the field fills, as
+    seen from there. ``joining_corners`` are its bare corners for inks of which borders are drawn too: the
+    field then reaches a little into the border, and is welded with it. ``tell`` is called with a word or two
+    as each band is drawn.
     """
 
     title: str
@@ -151,6 +153,7 @@ class Yardage:
     filling: Filling
     origin: tuple[int, int]
     drawn: tuple[_Drawn, ...]
+    joining_corners: Geometries = field(default_factory=lambda: np.empty(0, dtype=object))
     guides: Guides | None = None
     tell: Callable[[str], None] = field(default=lambda words: None)
 
@@ -167,6 +170,8 @@ class Yardage:
             return
         each = self.drawn[number]
         filling, weld = self._telling(each.ink), welds(each.ink)
+        if weld and each.border_areas is not None:
+            filling = replace(filling, corners=self.joining_corners)
         for piece in filled_areas(each.areas, filling, weld, each.border_areas, each.area_guard):
             yield piece.moved(*self.origin)
 
@@ -238,6 +243,7 @@ def compile_yardage(
         vertex_count=count,
         filling=filling,
         origin=origin,
+        joining_corners=_corners(frame, origin, artwork.tolerance),
         drawn=drawn if filling.cut else _guarded(drawn, artwork.cell),
         guides=guides,
         tell=progress or (lambda words: None),
@@ -292,12 +298,17 @@ def _origin(cell: Cell, spec: YardageSpec, frame: Frame | None, columns: int, ro
     return (box[0] + box[2] - cell.columns) // 2 + dx, (box[1] + box[3] - cell.rows) // 2 + dy
 
 
-def _corners(frame: Frame | None, origin: tuple[int, int]) -> Geometries:
-    """Return what rounded corners of borders leave bare of their window, in steps from the tile's corner."""
+def _corners(frame: Frame | None, origin: tuple[int, int], grown: float = 0.0) -> Geometries:
+    """Return what rounded corners of borders leave bare of their window, in steps from the tile's corner.
+
+    ``grown`` is how far (mm) the field reaches over a rounded corner.
+    """
     if frame is None:
         return np.empty(0, dtype=object)
     shape = shapely.transform(frame.shape, lambda xy: np.rint(xy * STEPS_PER_MM) - origin)
     window = shapely.box(*shape.bounds)
+    if grown:
+        shape = shapely.buffer(shape, grown * STEPS_PER_MM, join_style="mitre")
     parts = shapely.get_parts(shapely.difference(window, shape, grid_size=1.0))
     return np.asarray(parts[shapely.area(parts) > 0], dtype=object)
 

@@ -2,13 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 import shapely
 from shapely.geometry.base import BaseGeometry
 
-from batik_vector.artwork import Artwork, Cell, Geometries, Ink, Layer, Overlap, Provenance
+from batik_vector.artwork import (
+    Artwork,
+    Cell,
+    Geometries,
+    Ink,
+    Layer,
+    Margins,
+    Overlap,
+    Plate,
+    Provenance,
+)
+from batik_vector.outlines import Outlines
 from batik_vector.units import on_grid
 
 NASTY = (
@@ -81,3 +94,82 @@ def area_of(artwork: Artwork, ink: int) -> float:
 
 def length_of(artwork: Artwork, ink: int) -> float:
     return float(shapely.length(artwork.layers[ink].lines).sum())
+
+
+@dataclass(frozen=True)
+class InPieces:
+    """An artwork as a page that comes ring by ring, polygons with holes in several pieces.
+
+    ``guides`` adds a layer that no pen draws; ``margins`` are the artwork's where they are not given.
+    """
+
+    artwork: Artwork
+    rings: int = 1
+    guides: Outlines | None = None
+    own_margins: Margins | None = None
+
+    @property
+    def title(self) -> str:
+        return self.artwork.title
+
+    @property
+    def cell(self) -> Cell:
+        return self.artwork.cell
+
+    @property
+    def margins(self) -> Margins:
+        return self.own_margins or self.artwork.margins
+
+    @property
+    def bleed(self) -> float:
+        return self.artwork.bleed
+
+    @property
+    def cloth(self) -> str:
+        return self.artwork.cloth
+
+    @property
+    def tolerance(self) -> float:
+        return self.artwork.tolerance
+
+    @property
+    def provenance(self) -> Provenance:
+        return self.artwork.provenance
+
+    @property
+    def vertex_count(self) -> int:
+        return self.artwork.vertex_count
+
+    @property
+    def plates(self) -> tuple[Plate, ...]:
+        marks = Plate(Ink("marks", "#000000", 0.2), areas=False, lines=True, guide=True)
+        return self.artwork.plates + ((marks,) if self.guides else ())
+
+    def areas(self, number: int) -> Iterator[Outlines]:
+        if number < len(self.artwork.plates):
+            yield from pieces(self.artwork.areas(number), self.rings)
+
+    def lines(self, number: int) -> Iterator[Outlines]:
+        if number < len(self.artwork.plates):
+            yield from pieces(self.artwork.lines(number), self.rings)
+        elif self.guides is not None:
+            yield self.guides
+
+
+def pieces(whole: Iterator[Outlines], rings: int) -> Iterator[Outlines]:
+    """Cut outlines after every so many rings, wherever that is."""
+    for outlines in whole:
+        count = len(outlines.closed)
+        for first, stop in pairwise([*range(0, count, rings), count]):
+            marks = [first, *(m for m in outlines.marks.tolist() if first < m < stop), stop]
+            owner = np.searchsorted(outlines.marks, marks[:-1], side="right") - 1
+            points = slice(outlines.rings[first], outlines.rings[stop])
+            yield replace(
+                outlines,
+                points=outlines.points[points],
+                rings=outlines.rings[first : stop + 1] - outlines.rings[first],
+                marks=np.array(marks) - first,
+                closed=outlines.closed[first:stop],
+                names=[outlines.names[mark] for mark in owner],
+                unfinished=stop not in outlines.marks,
+            )

@@ -5,7 +5,7 @@ import os
 import stat
 import sys
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 import pytest
 
@@ -162,3 +162,35 @@ def test_pipes_are_refused(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "pipe")
     with pytest.raises(ExportError, match="no plain file"):
         write_whole(tmp_path / "pipe", b"x")
+
+
+def halves(sink: BinaryIO) -> None:
+    """Write a file from its middle, and its beginning at last."""
+    sink.write(b"..." + b"end" * 500_000)
+    sink.seek(0)
+    sink.write(b"two")
+
+
+def test_what_writes_itself_may_go_back(tmp_path: Path) -> None:
+    write_all_whole([(tmp_path / "a", halves), (tmp_path / "b", b"1")])
+    assert inside(tmp_path) == {"a": b"two" + b"end" * 500_000, "b": b"1"}
+
+
+def test_short_writes_of_what_writes_itself_are_continued(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    real = os.write
+    monkeypatch.setattr(os, "write", lambda handle, data: real(handle, bytes(data[:100_000])))
+    write_whole(tmp_path / "a", halves)
+    assert inside(tmp_path) == {"a": b"two" + b"end" * 500_000}
+
+
+@pytest.mark.parametrize("after", [0, 1])
+def test_a_disk_that_fills_while_a_file_is_written(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, after: int
+) -> None:
+    (tmp_path / "a").write_bytes(b"before")
+    fail(monkeypatch, "write", OSError(errno.ENOSPC, "No space left on device"), after)
+    with pytest.raises(ExportError, match="No space left"):
+        write_whole(tmp_path / "a", halves)
+    assert inside(tmp_path) == {"a": b"before"}

@@ -99,6 +99,7 @@ def test_a_clip_that_is_a_mere_frame_round_the_page_is_none() -> None:
         (svg(""), "nothing is drawn"),
         (svg('<path d=""/><circle r="0"/><rect fill="none" width="9" height="9"/>'), "nothing is drawn"),
         (svg('<path d="M1 1h5" fill="red"/>'), "nothing is drawn"),
+        (svg('<path d="M1 1h5v5" fill="rgba(9, 9, 9, 0)"/>'), "nothing is drawn"),
         (svg('<rect width="100" height="100"/>'), "nothing is drawn on its ground"),
         (svg('<circle cx="-40" r="30"/>'), "all that it draws lies outside its page"),
     ],
