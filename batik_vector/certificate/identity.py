@@ -36,7 +36,10 @@ def rolled_difference(areas: Geometries, field: Elsewhere, limit: float) -> Diff
         limit: in mm²; the place of a difference below it is not looked for.
     """
     # Areas that neither the seams nor the new cut touch are the same bits on both sides.
-    crossing = field.whole[~shapely.covered_by(field.whole, field.box)] if len(field.whole) else field.whole
+    low, high = np.array(field.box.bounds).reshape(2, 2)
+    bounds = shapely.bounds(field.whole).reshape(-1, 4)
+    reaches = ((bounds[:, 2:] > low) & (bounds[:, :2] < high)).all(axis=1)
+    crossing = field.whole[reaches & ~shapely.covered_by(field.whole, field.box)]
     again = _rolled(np.concatenate([field.healed, crossing]), field.box, field.frame)
     here = np.concatenate([areas[field.edge], _once(crossing, field.frame)])
     return _difference(here, again, field.frame, limit)

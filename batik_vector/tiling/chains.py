@@ -112,17 +112,23 @@ def chains_of(outlines: Outlines, seams: tuple[tuple[int, ...], tuple[int, ...]]
     end_of_ring = np.repeat(outlines.rings[ring + 1], counts)
     members -= (members >= end_of_ring) * np.repeat(sizes[ring], counts)
     chain_points = points[members]
-    axis = np.full(len(start), NO_SEAM)
-    a, b = chain_points[offsets[:-1]], chain_points[offsets[1:] - 1]
-    for each in (0, 1):
-        flat = (counts == 2) & (a[:, each] == b[:, each]) & np.isin(a[:, each], seams[each])
-        axis[flat] = each
+    axis = _seam_axis(chain_points, offsets, seams)
     mark = np.searchsorted(outlines.marks, ring, side="right") - 1
     each_chain = np.arange(len(start))
     after = np.where(last, heads[ring], each_chain + 1)
     before = np.empty_like(after)
     before[after] = each_chain
     return Chains(chain_points, offsets, mark, axis, before, after)
+
+
+def _seam_axis(points: Steps, offsets: Offsets, seams: tuple[tuple[int, ...], tuple[int, ...]]) -> Index:
+    """Return on which kind of seam each chain is an edge, ``NO_SEAM`` for others."""
+    found = np.full(len(offsets) - 1, NO_SEAM)
+    a, b = points[offsets[:-1]], points[offsets[1:] - 1]
+    for axis in (0, 1):
+        on = (np.diff(offsets) == 2) & (a[:, axis] == b[:, axis]) & np.isin(a[:, axis], seams[axis])
+        found[on] = axis
+    return found
 
 
 def _repeated(points: Steps) -> NDArray[np.bool_]:

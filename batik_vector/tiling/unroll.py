@@ -118,13 +118,16 @@ class _Marks:
 
 
 def _mixed(pieces: Outlines, label: Index, place: Steps, runs_on: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Return which pieces are of a mark of which some lie over one another, as only overlays have them."""
+    """Return which pieces are of a mark of which some lie over one another, or share edges off the seams.
+
+    Only marks of overlays do.
+    """
     polygons = to_polygons(pieces)
     a, b = shapely.STRtree(polygons).query(polygons)
     one = (a < b) & (label[a] == label[b]) & (runs_on[a] | (place[a] == place[b]).all(axis=1))
     a, b = a[one], b[one]
-    over = shapely.relate_pattern(polygons[a], polygons[b], "T********")
-    return np.isin(label, label[a[over]])
+    over = [shapely.relate_pattern(polygons[a], polygons[b], how) for how in ("T********", "F***1****")]
+    return np.isin(label, label[a[over[0] | over[1]]])
 
 
 def _both(one: Unrolled, other: Unrolled, strands: int) -> Unrolled:

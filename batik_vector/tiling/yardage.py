@@ -85,6 +85,11 @@ class YardageSpec:
         object.__setattr__(self, "edge", choice(Edge, self.edge, "edge"))
         object.__setattr__(self, "align", choice(Align, self.align, "align"))
 
+    @property
+    def bleed_steps(self) -> int:
+        """How far the field goes on beyond the printed area, in grid steps."""
+        return to_steps(self.bleed) if self.edge == Edge.BLEED else 0
+
     def size(self, cell: Cell) -> tuple[int, int]:
         """Return the breadth and length of the printed area in grid steps, given the tile's cell."""
         length = cell.rectangle.rows if self.length is None else to_steps(self.length)
@@ -220,17 +225,38 @@ def compile_yardage(
     if artwork.bleed:
         raise GeometryError(f"the tile has a bleed of {format_mm(artwork.bleed)} mm: expected none")
     columns, rows = spec.size(artwork.cell)
-    bleed = to_steps(spec.bleed) if spec.edge == Edge.BLEED else 0
     count = vertices_of(artwork, spec, frame)
     if count > limit:
         raise TooLargeError(_too_large(count, limit, rows))
-    window = _window(columns, rows, bleed, frame)
     origin = _origin(artwork.cell, spec, frame, columns, rows)
+    filling = replace(_filling(artwork.cell, spec, frame, origin), piece=piece)
+    drawn = tuple(_drawn(artwork, frame, origin, inks))
+    if not filling.cut:
+        drawn = _guarded(drawn, artwork.cell)
+    return _page(artwork, spec, frame, filling, origin, drawn, count, progress or (lambda words: None))
+
+
+def _filling(cell: Cell, spec: YardageSpec, frame: Frame | None, origin: tuple[int, int]) -> Filling:
+    """Return what the field fills, as seen from a tile's corner."""
+    window = _window(*spec.size(cell), spec.bleed_steps, frame)
     x, y = origin
     inner = Window(window.left - x, window.bottom - y, window.right - x, window.top - y)
-    filling = Filling(artwork.cell, inner, spec.edge != Edge.WHOLE, _corners(frame, origin), piece)
-    drawn = tuple(_drawn(artwork, frame, origin, inks))
-    guides = _guides(artwork.cell, spec, origin, columns, rows, bleed) if spec.marks else None
+    return Filling(cell, inner, spec.edge != Edge.WHOLE, _corners(frame, origin))
+
+
+def _page(
+    artwork: Artwork,
+    spec: YardageSpec,
+    frame: Frame | None,
+    filling: Filling,
+    origin: tuple[int, int],
+    drawn: tuple[_Drawn, ...],
+    count: int,
+    tell: Callable[[str], None],
+) -> Yardage:
+    columns, rows = spec.size(artwork.cell)
+    bleed = spec.bleed_steps
+    guides = _guides(artwork.cell, spec, origin) if spec.marks else None
     side = max(to_steps(spec.selvedge), bleed)
     return Yardage(
         title=artwork.title,
@@ -243,18 +269,16 @@ def compile_yardage(
         vertex_count=count,
         filling=filling,
         origin=origin,
+        drawn=drawn,
         joining_corners=_corners(frame, origin, artwork.tolerance),
-        drawn=drawn if filling.cut else _guarded(drawn, artwork.cell),
         guides=guides,
-        tell=progress or (lambda words: None),
+        tell=tell,
     )
 
 
 def vertices_of(artwork: Artwork, spec: YardageSpec, frame: Frame | None = None) -> int:
     """Return about how many vertices a cloth will have."""
-    columns, rows = spec.size(artwork.cell)
-    bleed = to_steps(spec.bleed) if spec.edge == Edge.BLEED else 0
-    window = _window(columns, rows, bleed, frame)
+    window = _window(*spec.size(artwork.cell), spec.bleed_steps, frame)
     area = (window.right - window.left) * (window.top - window.bottom)
     share = area / (artwork.cell.columns * artwork.cell.rows)
     border = sum(
@@ -313,17 +337,15 @@ def _corners(frame: Frame | None, origin: tuple[int, int], grown: float = 0.0) -
     return np.asarray(parts[shapely.area(parts) > 0], dtype=object)
 
 
-def _guides(
-    cell: Cell, spec: YardageSpec, origin: tuple[int, int], columns: int, rows: int, bleed: int
-) -> Guides:
-    repeat = cell.rows
+def _guides(cell: Cell, spec: YardageSpec, origin: tuple[int, int]) -> Guides:
+    columns, rows = spec.size(cell)
     return Guides(
         columns / STEPS_PER_MM,
         rows / STEPS_PER_MM,
-        bleed / STEPS_PER_MM,
+        spec.bleed_steps / STEPS_PER_MM,
         spec.selvedge,
-        origin[1] % repeat / STEPS_PER_MM,
-        repeat / STEPS_PER_MM,
+        origin[1] % cell.rows / STEPS_PER_MM,
+        cell.rows / STEPS_PER_MM,
     )
 
 

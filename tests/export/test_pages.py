@@ -96,6 +96,20 @@ def test_a_polygon_in_pieces_is_one_path() -> None:
     assert len(drawing.modelspace()) == 1 + len(holes) + 1
 
 
+def test_a_polygon_longer_than_a_path_is_parted_from_others_the_same_in_pieces(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(svg, "PATH_POINTS", 90)
+    holes = [shapely.box(x + 1, 1, x + 3, 9) for x in range(0, 90, 4)]
+    comb = shapely.difference(shapely.box(0, 0, 92, 10), shapely.union_all(holes))
+    layer = Layer(Ink("wax", "#f4efe2"), geometries(disc(50, 50, 8), comb, disc(20, 50, 8)))
+    artwork = Artwork("comb", Cell(100_000, 100_000), (layer,))
+    options = SvgOptions(profile="compact")  # type: ignore[arg-type]
+    assert svg.render(artwork, options).count(b"<path ") == 3
+    for rings in (1, 3, 5):
+        assert svg.render(InPieces(artwork, rings), options) == svg.render(artwork, options)
+
+
 def cloth(**spec: Any) -> Any:
     """Cloth of discs and an endless trellis, in pieces."""
     net = shapely.difference(shapely.box(0, 0, 20, 20), shapely.box(2, 2, 18, 18))
