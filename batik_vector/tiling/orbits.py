@@ -17,7 +17,7 @@ from batik_vector.artwork import Geometries
 from batik_vector.errors import GeometryError, TooLargeError
 from batik_vector.geometry.coincide import distinct
 from batik_vector.geometry.maps.affine import IDENTITY, Affine
-from batik_vector.geometry.sampling import Array
+from batik_vector.geometry.sampling import Array, Indices
 from batik_vector.tiling.stack import MAX_REPEATS, MAX_VERTICES
 from batik_vector.tiling.torus import Window, lines_of, polygons_of, to_mm, wrap
 from batik_vector.units import STEPS_PER_MM
@@ -120,8 +120,7 @@ class Orbit:
         low_x, low_y, high_x, high_y = shape.bounds
         window = Window(math.floor(low_x), math.floor(low_y), math.ceil(high_x), math.ceil(high_y))
         self._refuse_too_many(steps, window)
-        steps, _ = wrap(steps, np.zeros(len(steps), np.intp), self._lattice(), window)
-        pieces = _within(steps, shape)
+        pieces = _within(*wrap(steps, np.arange(len(steps)), self._lattice(), window), shape)
         images = [_on_steps(operation).apply(pieces) for operation in self.operations]
         return to_mm(_on_grid(np.concatenate(images)))
 
@@ -187,15 +186,28 @@ def _cut(shares: Array) -> float:
     return float(around[at] + gaps[at] / 2)
 
 
-def _within(marks: Geometries, shape: shapely.Polygon) -> Geometries:
-    """Return the pieces of marks inside a convex shape, in floats."""
+def _within(marks: Geometries, names: Indices, shape: shapely.Polygon) -> Geometries:
+    """Return the pieces of marks inside a convex shape, in floats; those of one name that meet are joined.
+
+    A mark as large as the repeat comes in by several translates: joined here it is multiplied once, and has
+    fewer edges that all but coincide along the mirrors.
+    """
     shapely.prepare(shape)
     whole = shapely.contains_properly(shape, marks)
     areal = shapely.get_dimensions(marks) == 2
-    cut = shapely.intersection(shapely.make_valid(marks[areal & ~whole]), shape)
-    pieces, _ = polygons_of(cut, np.zeros(len(cut), np.intp))
+    pieces, of = polygons_of(
+        shapely.intersection(shapely.make_valid(marks[areal & ~whole]), shape), names[areal & ~whole]
+    )
     run = shapely.intersection(marks[~areal & ~whole], shape)
     lines, _ = lines_of(run, np.zeros(len(run), np.intp))
+    several = np.bincount(of)[of] > 1 if len(of) else np.zeros(0, bool)
+    if several.any():
+        order = np.argsort(of[several], kind="stable")
+        _, number = np.unique(of[several][order], return_inverse=True)
+        groups = np.asarray(shapely.geometrycollections(pieces[several][order], indices=number), dtype=object)
+        joined = np.asarray(shapely.union_all(groups[:, None], axis=1), dtype=object)
+        parts, _ = polygons_of(joined, np.zeros(len(joined), np.intp))
+        pieces = np.concatenate([pieces[~several], parts])
     return np.concatenate([marks[whole], pieces, lines])
 
 
