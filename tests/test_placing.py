@@ -145,7 +145,7 @@ def test_what_covers_the_region_covers_the_cloth_without_a_slit(name: str) -> No
         areas = compiled(spec, ground, motif=disc).layers[0].areas
         assert len(areas) == 1
         # Slits between pieces would be a step wide and as long as an edge; overlays leave specks of less.
-        assert shapely.area(areas[0]) == pytest.approx(spec.cell().width * spec.cell().height, abs=0.005)
+        assert shapely.area(areas[0]) == pytest.approx(spec.cell().width * spec.cell().height, abs=1e-9)
 
 
 @pytest.mark.parametrize(

@@ -92,7 +92,7 @@ class Edges:
     """Directed straight edges in steps: from ``begin`` to ``end``, shape (n, 2), of line ``owner``.
 
     ``turn_begin`` and ``turn_end`` are how far (radians, not negative) the way turns at either end;
-    0 where it ends there.
+    infinite where it ends there, and nothing tells how it would have turned.
     """
 
     begin: Steps
@@ -313,8 +313,8 @@ def edges(coords: Steps, offsets: NDArray[np.int64]) -> Edges:
     closed = (coords[offsets[:-1]] == coords[offsets[1:] - 1]).all(axis=1)[some]
     after[last] = np.where(closed, first, last)
     turn = np.abs((heading[after] - heading + np.pi) % (2 * np.pi) - np.pi)
-    before = np.zeros(len(owner))
+    before = np.full(len(owner), np.inf)
     before[after] = turn
-    before[first[~closed]] = 0.0
-    turn[last[~closed]] = 0.0
+    before[first[~closed]] = np.inf
+    turn[last[~closed]] = np.inf
     return Edges(begin, end, owner, before, turn)

@@ -6,7 +6,7 @@ of the seam from the drawing's own turns is this.
 * A polyline turns at every vertex, and at one that happens to lie on the seam hardly more than at those
   beside it, nor more than its sampling explains: edges of lengths L and M that keep a tolerance t turn by
   up to 4 t (1 / L + 1 / M). ``SUDDEN`` times the lesser of that and the larger turn of the two vertices
-  nearest to the crossing is allowed.
+  nearest to the crossing is allowed; where a line ends at one of these, that alone.
 * Vertices are rounded, which turns an edge of length L by up to ``NOISE_MM`` / L: that is allowed.
 * A turn that the seam mirrors, as the seams of pm, pmm or p4m do to every border, is the drawing's.
 * So is one sharper than ``CORNER``: tips of leaves and stars may lie on the seam, and edges that meet in

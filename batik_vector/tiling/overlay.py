@@ -18,13 +18,16 @@ from numpy.typing import NDArray
 
 from batik_vector.artwork import Geometries
 
+SPECK = 0.25
+"""Grid cells: a hole smaller than this is no drawing."""
+
 Again = Callable[[NDArray[np.intp]], shapely.Geometry | Geometries]
 """Makes the results of some rows again, on the grid."""
 
 
 def united(groups: Geometries) -> Geometries:
     """Return the union of each row of areas: shape (n, k) → (n,)."""
-    joined = np.asarray(shapely.union_all(groups, axis=1), dtype=object)
+    joined = _without_specks(np.asarray(shapely.union_all(groups, axis=1), dtype=object))
     return _rounded(joined, lambda rows: shapely.union_all(groups[rows], axis=1, grid_size=1.0))
 
 
@@ -38,6 +41,26 @@ def within(areas: Geometries, window: shapely.Polygon) -> Geometries:
     """Return what of each area lies in a window."""
     inside = np.asarray(shapely.intersection(areas, window), dtype=object)
     return _rounded(inside, lambda rows: shapely.intersection(areas[rows], window, grid_size=1.0))
+
+
+def _without_specks(areas: Geometries) -> Geometries:
+    """Fill the holes that hold no grid point: floats leave them between edges that all but coincide.
+
+    Rounding would draw such a hole out to a slit a whole step wide.
+    """
+    parts, owner = shapely.get_parts(areas, return_index=True)
+    rings, part = shapely.get_rings(parts, return_index=True)
+    holes = np.flatnonzero(np.r_[False, part[1:] == part[:-1]])
+    specks = holes[shapely.area(shapely.polygons(rings[holes])) < SPECK]
+    if not len(specks):
+        return areas
+    areas = areas.copy()
+    kept = np.delete(rings, specks), np.delete(part, specks)
+    for row in np.unique(owner[part[specks]]):
+        mine = [kept[0][kept[1] == each] for each in np.flatnonzero(owner == row)]
+        whole = [shapely.Polygon(shell, list(inner)) for shell, *inner in mine]
+        areas[row] = whole[0] if len(whole) == 1 else shapely.MultiPolygon(whole)
+    return areas
 
 
 def _rounded(results: Geometries, again: Again) -> Geometries:
