@@ -240,7 +240,9 @@ def _progress(jobs: Sequence[Job], quiet: bool) -> Iterator[tuple[Job, Callable[
 
             def tell(stage: str) -> None:
                 bar.set_description(stage, refresh=False)
-                bar.update()
+                # A cloth also tells how far each of its inks has come.
+                if not stage.endswith("%"):
+                    bar.update()
 
             yield job, tell
 

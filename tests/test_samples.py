@@ -8,14 +8,12 @@ from pathlib import Path
 import pytest
 
 from batik_vector import certify, compile_cloth, compile_recipe, load_recipe
-from batik_vector.artwork import Artwork, Layer, violations
+from batik_vector.artwork import Artwork, violations
 from batik_vector.certificate.symmetry import found_group
 from batik_vector.compiler import inspect
 from batik_vector.export import FORMATS, render
 from batik_vector.export.options import PngOptions
-from batik_vector.outlines import to_polygons, to_polylines, together
-from batik_vector.tiling.field import repeated
-from batik_vector.tiling.torus import to_mm
+from batik_vector.tiling.field import collected, repeated
 from batik_vector.tiling.yardage import Yardage
 from tests.tiling.test_seamless import assert_line_ends_meet, crossings, cuts, difference, rolled, twins
 
@@ -61,18 +59,6 @@ def compiled(name: str) -> Artwork:
 @functools.cache
 def cloth(name: str) -> Yardage:
     return compile_cloth(load_recipe(FOLDER / f"{name}.toml"))
-
-
-def collected(page: Yardage) -> Artwork:
-    """The whole page as one artwork."""
-    layers = []
-    for number, plate in enumerate(page.plates):
-        if plate.guide:
-            continue
-        areas, lines = together(list(page.areas(number))), together(list(page.lines(number)))
-        marks = (to_mm(to_polygons(areas)), to_mm(to_polylines(lines)))
-        layers.append(Layer(plate.ink, *marks, tuple(areas.names), tuple(lines.names)))
-    return Artwork(page.title, page.cell, tuple(layers), bleed=page.bleed)
 
 
 def test_the_papers_figures_and_six_designs_more_are_there() -> None:

@@ -18,6 +18,7 @@ from batik_vector.certificate.seam import Seam, seams_of
 from batik_vector.certificate.shifts import agreeing_shift, all_events, shift_fault
 from batik_vector.certificate.slivers import sliver_fault, slivers
 from batik_vector.certificate.striping import profile, unevenness
+from batik_vector.certificate.symmetry import found_group
 from batik_vector.certificate.turns import Turns, border_turns, line_turns, turn_faults
 from batik_vector.tiling.groups import group
 from batik_vector.units import STEPS_PER_MM, format_mm
@@ -177,8 +178,6 @@ def _check_striping(tile: Drawing, axis: int, ledger: _Ledger) -> float:
 
 def _check_symmetry(artwork: Artwork, asked: str | None, ledger: _Ledger) -> str:
     """Return the group found; accuse it of being another than the one asked for."""
-    from batik_vector.certificate.symmetry import found_group
-
     found = found_group(artwork.layers, artwork.cell, artwork.tolerance)
     if asked is None or found.name == asked:
         return found.name
