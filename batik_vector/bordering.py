@@ -148,12 +148,13 @@ class _Maker:
         corners = laying.turned_corners(border.sides)
         radius = _radius(border, room) if border.corner == Corner.BEND else 0
         _refuse_round_room(border, room, corners, radius)
-        courses = _courses(border, room.window, corners, radius)
         tolerance = self.recipe.tolerance
         if corners and border.corner == Corner.BEND:
             # The outer edge is drawn out more than the middle, and its chords with it.
             tolerance *= (1 - BEND_SHARE) * (radius - border.depth / 2) / radius
         bands = self._bands(border, max(tolerance, 0.002))
+        self._foresee(border, room.window, sum(band.marks.vertices for band in bands))
+        courses = _courses(border, room.window, corners, radius)
         copies = sum(len(course.spans) + len(course.arc) for course in courses)
         self._spend(sum(band.marks.vertices for band in bands) * copies)
         bending = self.recipe.tolerance * BEND_SHARE * STEPS_PER_MM
@@ -218,6 +219,19 @@ class _Maker:
         areas: Geometries = np.array([area], dtype=object)
         return Sheet("rail", ink, areas, gap=0.0 if ink.overlap == Overlap.KNOCKOUT else None)
 
+    def _foresee(self, border: BorderSpec, window: Window, vertices: int) -> None:
+        """Raise before a border of far too many periods is laid, of so many vertices each."""
+        sides = laying.sides_of(window, border.sides, "turn")
+        periods = sum(side.length for side in sides) // border.period
+        # An empty period is laid as well.
+        count = self.spent + periods * max(vertices, 1)
+        if count > self.recipe.limit:
+            raise TooLargeError(
+                f"about {periods:,} periods of {format_mm(border.size[0])} mm make about {count:,} vertices, "
+                f"past the limit of {self.recipe.limit:,}: expected longer periods, a larger tolerance, or a "
+                "higher limit of the recipe"
+            )
+
     def _spend(self, vertices: int) -> None:
         self.spent += vertices
         if self.spent > self.recipe.limit:
@@ -237,11 +251,16 @@ def _refuse_round_room(border: BorderSpec, room: _Room, corners: frozenset[int],
             need = room.radii[corner]
             if side not in border.sides or radius * (corner in corners) >= need:
                 continue
-            words = 'expected corner = "bend"' if border.corner != Corner.BEND else "expected"
-            inner = math.ceil((need - border.depth) / STEPS_PER_MM)
+            inner = max(math.ceil((need - border.depth) / STEPS_PER_MM), 0)
+            words = f'corner = "bend" with a radius of at least {inner} mm'
+            if corner not in corners:
+                both = " and ".join(name for name, joined in laying.SIDES.items() if corner in joined)
+                words = f"sides to name both {both}, and {words}"
+            elif border.corner == Corner.BEND:
+                words = f"a radius of at least {inner} mm"
             raise GeometryError(
-                f"the border outside it leaves a corner of {format_mm(need / STEPS_PER_MM)} mm radius: "
-                f"{words} with a radius of at least {max(inner, 0)} mm on both sides of it"
+                f"it would run over the {laying.CORNER_NAMES[corner]} corner, which the border outside it "
+                f"bends round with {format_mm(need / STEPS_PER_MM)} mm radius: expected {words}"
             )
 
 

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import enum
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Annotated, TypeAlias
 
-from batik_vector.errors import GeometryError
+from batik_vector.errors import GeometryError, blame
 from batik_vector.fields import Between, Length, Says, Text, check, choice
 from batik_vector.placement import Placement
+from batik_vector.tiling.borders import turned_corners
 from batik_vector.tiling.friezes import FRIEZE_NAMES, frieze
 from batik_vector.units import to_steps
 
@@ -102,7 +104,7 @@ class BorderSpec:
         Says('radius of the inner edge round a corner "bend"; half the depth when left out'),
     ] = None
     facing: Annotated[
-        Facing, Says('how sides and corners stand to one another where no corner "mitre" is')
+        Facing, Says('how sides and corners stand to one another with corner "motif", or without corners')
     ] = Facing.TURN
     sides: Annotated[tuple[ClothSide, ...], Says("the sides it lies along")] = tuple(ClothSide)
     ends: Annotated[Ends, Says("at an edge of the cloth: a whole period, or cut off")] = Ends.WHOLE
@@ -129,21 +131,44 @@ class BorderSpec:
 
     def _refuse_contradictions(self) -> None:
         if not self.sides:
-            raise GeometryError("sides is empty: expected one or more of bottom, right, top, left")
+            raise GeometryError("sides = []: expected one or more of bottom, right, top, left")
+        twice = [side for side in ClothSide if self.sides.count(side) > 1]
+        if twice:
+            raise GeometryError(f"sides = {_listed(self.sides)}: {twice[0]} is named twice, expected each once")
         if not (self.place or self.rails or self.corner_place):
             raise GeometryError("the border is empty: expected placements in place, or rails")
+        self._refuse_for_corner()
+        for key, placements in (("place", self.place), ("corner_place", self.corner_place)):
+            for number, placement in enumerate(placements):
+                with blame(f"{key}[{number}]"):
+                    _refuse_wallpaper(placement)
+        for number, rail in enumerate(self.rails):
+            with blame(f"rails[{number}].at"):
+                self._refuse_beyond(rail)
+
+    def _refuse_for_corner(self) -> None:
+        """Raise where a key is given that the kind of corner makes nothing of."""
+        given = f'with corner = "{self.corner}"'
         if self.corner_place and self.corner != Corner.MOTIF:
-            raise GeometryError(f'corner_place is given with corner = "{self.corner}": expected "motif"')
+            with blame("corner_place"):
+                raise GeometryError(f'given {given}: expected none, or corner = "motif"')
         if self.radius is not None and self.corner != Corner.BEND:
-            raise GeometryError(f'radius is given with corner = "{self.corner}": expected "bend"')
-        for placement in (*self.place, *self.corner_place):
-            _refuse_wallpaper(placement)
-        for rail in self.rails:
-            if rail.at - rail.width / 2 < 0 or rail.at + rail.width / 2 > self.size[1]:
-                raise GeometryError(
-                    f"a rail of {rail.width:g} mm at {rail.at:g} mm reaches beyond the border: "
-                    f"expected its middle from {rail.width / 2:g} to {self.size[1] - rail.width / 2:g} mm"
-                )
+            raise GeometryError(f'radius = {self.radius:g} mm {given}: expected none, or corner = "bend"')
+        turns = self.corner != Corner.MOTIF and turned_corners(self.sides)
+        if self.facing != Facing.TURN and turns:
+            raise GeometryError(
+                f'facing = "{self.facing}" {given}, which sets how its sides stand: expected none, '
+                'or corner = "motif"'
+            )
+
+    def _refuse_beyond(self, rail: RailSpec) -> None:
+        half = rail.width / 2
+        if rail.at - half >= 0 and rail.at + half <= self.size[1]:
+            return
+        words = f"a rail of {rail.width:g} mm at {rail.at:g} mm reaches beyond the border: expected "
+        if rail.width > self.size[1]:
+            raise GeometryError(f"{words}a width of {self.size[1]:g} mm at most")
+        raise GeometryError(f"{words}its middle from {half:g} to {self.size[1] - half:g} mm")
 
     @property
     def period(self) -> int:
@@ -159,12 +184,20 @@ class BorderSpec:
 def _refuse_wallpaper(placement: Placement) -> None:
     """Raise where a placement asks for what only a tile has."""
     if placement.symmetry not in ("", "p1"):
-        raise GeometryError(
-            f'symmetry = "{placement.symmetry}": a border repeats by its frieze; expected "p1", '
-            "which leaves the frieze's turns and mirrors out, or no symmetry"
-        )
-    if placement.phase != (0.0, 0.0) or placement.region is not None:
-        raise GeometryError("phase and region belong to a tile's placements: expected neither in a border")
+        with blame("symmetry"):
+            raise GeometryError(
+                f'"{placement.symmetry}": a border repeats by its frieze; expected "p1", '
+                "which leaves the frieze's turns and mirrors out, or no symmetry"
+            )
+    keys = {"phase": placement.phase != (0.0, 0.0), "region": placement.region is not None}
+    for key, given in keys.items():
+        if given:
+            with blame(key):
+                raise GeometryError("belongs to a tile's placements: expected none in a border")
+
+
+def _listed(words: Sequence[str]) -> str:
+    return "[" + ", ".join(f'"{word}"' for word in words) + "]"
 
 
 __all__ = ["BorderSpec", "ClothSide", "Corner", "Ends", "Facing", "RailSpec"]

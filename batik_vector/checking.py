@@ -7,6 +7,7 @@ symmetry, and whether the drawing is still the recipe's. Of a PDF, DXF or PNG th
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -16,7 +17,7 @@ import numpy as np
 import shapely
 
 from batik_vector.artwork import Artwork, Cell, Layer, Overlap
-from batik_vector.certificate import Certificate, Limits, certify, pointers
+from batik_vector.certificate import Asked, Certificate, Limits, certify, pointers
 from batik_vector.compiler import compile_recipe, inspect
 from batik_vector.errors import BatikError, ExportError, Fault, GeometryError, RecipeError
 from batik_vector.export import render, write_all_whole
@@ -55,6 +56,10 @@ class Wishes:
             group(self.group)
         if self.repeat:
             parse_repeat(self.repeat)
+
+
+MEASURING = 0.002
+"""By how much more a tile may be found stretched than its recipe says."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,7 +139,7 @@ def _check_drawing(source: str, wishes: Wishes, tell: Tell) -> Found:
     recipe = _recipe_of(source, notes) if reading.ours else None
     if recipe is None:
         tell("measuring")
-        certificate = _certified(source, reading.artwork, wishes, "")
+        certificate = _certified(source, reading.artwork, wishes, None)
         return _drawing_found(source, reading, certificate, notes=notes)
     notes += _left_aside(wishes)
     if recipe.tile is None:
@@ -143,7 +148,7 @@ def _check_drawing(source: str, wishes: Wishes, tell: Tell) -> Found:
         promise = promised(recipe, compile_recipe(recipe, progress=tell), reading)
     except BatikError as error:
         notes.append(f"its recipe does not compile, and was left aside: {error}")
-        return _drawing_found(source, reading, _certified(source, reading.artwork, wishes, ""), notes=notes)
+        return _drawing_found(source, reading, _certified(source, reading.artwork, wishes, None), notes=notes)
     tell("measuring")
     reading, promise = _as_promised(source, reading, promise)
     if promise.broken and recipe.yardage is not None:
@@ -181,24 +186,28 @@ def _recipe_of(source: str, notes: list[str]) -> Recipe | None:
         return None
 
 
-def _asked(recipe: Recipe) -> str:
+def _asked(recipe: Recipe) -> Asked | None:
     """Return the symmetry group that a recipe promises of its whole tile, or nothing.
 
     A placement with a symmetry or an origin of its own need not keep the tile's.
     """
     asked = repeat_of(recipe.tiling.repeat).group
     if asked is None:
-        return ""
+        return None
     kept = all(
         (not each.symmetry or group(each.symmetry) == asked) and each.phase == (0.0, 0.0)
         for each in recipe.place
     )
-    return asked.name if kept else ""
+    across, along = recipe.tiling.stretch
+    apart = max(across / along, along / across) - 1
+    return Asked(asked.name, exactly=False, stretch=apart + MEASURING) if kept else None
 
 
-def _certified(source: str, artwork: Artwork, wishes: Wishes, asked: str) -> Certificate:
+def _certified(source: str, artwork: Artwork, wishes: Wishes, asked: Asked | None) -> Certificate:
+    if wishes.group:
+        asked = Asked(wishes.group, stretch=asked.stretch if asked else 0.0)
     try:
-        return certify(artwork, asked=wishes.group or asked or None, limits=wishes.limits)
+        return certify(artwork, asked=asked, limits=wishes.limits)
     except GeometryError as error:
         raise _fault(source, str(error)) from error
 
@@ -248,7 +257,7 @@ def _found(
     recipe = recipe if isinstance(origin, str) else origin.recipe
     told = {"recipe": source, "checked": checked, **facts}
     told["warnings"] = [] if isinstance(origin, str) else warnings(origin.recipe, artwork)
-    told["notes"] = [*notes, *(_stretch_note(recipe) if recipe else [])]
+    told["notes"] = [*notes, *(_recipe_notes(recipe) if recipe else [])]
     told.setdefault("broken", [])
     told.setdefault("differences", [])
     told["certificate"] = certificate.as_dict()
@@ -257,11 +266,14 @@ def _found(
     return Found(source, artwork, certificate, told)
 
 
-def _stretch_note(recipe: Recipe) -> list[str]:
+def _recipe_notes(recipe: Recipe) -> list[str]:
     across, along = recipe.tiling.stretch
-    if (across, along) == (1.0, 1.0):
-        return []
-    return [f"stretched to fit: {per_cent(across)} across, {per_cent(along)} along the cloth"]
+    notes = []
+    if (across, along) != (1.0, 1.0):
+        notes.append(f"stretched to fit: {per_cent(across)} across, {per_cent(along)} along the cloth")
+    if recipe.yardage is not None:
+        notes.append("the tile was measured, not the cloth that is filled from it")
+    return notes
 
 
 def pointer_files(sources: Sequence[str], folder: Path) -> dict[str, Path]:
@@ -275,8 +287,11 @@ def pointer_files(sources: Sequence[str], folder: Path) -> dict[str, Path]:
     if not there.is_dir():
         raise ExportError(f"{there} is a file, expected a folder")
     places: dict[str, Path] = {}
+    given = {os.path.realpath(source) for source in sources}
     for source in sources:
         place = folder / f"{Path(source).stem}-check.svg"
+        if os.path.realpath(place) in given:
+            raise _fault(source, f'its faults would be shown in "{place}", which is to be checked itself')
         if place in places.values():
             raise _fault(
                 source, f'its faults would be shown in "{place}", as another\'s would: check it alone'

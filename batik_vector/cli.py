@@ -125,8 +125,12 @@ def _tell_files(done: dict[str, Any]) -> None:
         width, height = (f"{side:g}" for side in file["size_mm"])
         size = _bytes(file["bytes"])
         click.echo(f"{file['path']}  {size}  {width} × {height} mm  {file['seconds']:.2f} s", err=True)
+    from batik_vector.telling import made_of
+
     for words in done["warnings"]:
         click.echo(f"{done['recipe']}: warning: {words}", err=True)
+    for words in made_of(done):
+        click.echo(f"{done['recipe']}: {words}", err=True)
     click.echo(f"{done['recipe']}: {done['vertices']:,} vertices in {done['seconds']:.2f} s", err=True)
 
 

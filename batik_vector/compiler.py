@@ -47,7 +47,7 @@ def compile_recipe(recipe: Recipe, *, progress: Progress | None = None) -> Artwo
     for number, placement in enumerate(recipe.place):
         tell(f"placing {', '.join(placement.motifs)}")
         with blame(f"place[{number}]"):
-            orbit = recipe.tiling.orbit(placement.symmetry, placement.phase, placement.region)
+            orbit = recipe.tiling.orbit(placement.symmetry, placement.phase, placement.spread)
             placed = place(placement, recipe, unit, inks, recipe.limit - spent, orbit, before)
         before.append(placed)
         sheets += placed.sheets
@@ -97,7 +97,8 @@ def compile_cloth(
     width, length = (steps / STEPS_PER_MM for steps in spec.size(tile.cell))
     frame = compile_borders(recipe.border, recipe, (0.0, 0.0, width, length)) if recipe.border else None
     with blame("yardage"):
-        return compile_yardage(tile, spec, frame=frame, inks=list(recipe.ink), progress=progress)
+        page = compile_yardage(tile, spec, frame=frame, inks=list(recipe.ink), progress=progress)
+    return replace(page, facts={"borders": [asdict(fit) for fit in frame.fits]}) if frame else page
 
 
 def _blank(recipe: Recipe, cell: Cell) -> Artwork:

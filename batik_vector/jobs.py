@@ -278,6 +278,7 @@ def _facts(tile: Artwork | None, cloth: Yardage | None) -> dict[str, Any]:
             "page_mm": _page_size(cloth),
             "vertices_about": cloth.vertex_count,
             "inks": [plate.ink.name for plate in cloth.plates if not plate.guide],
+            **cloth.facts,
         }
     return facts
 

@@ -143,7 +143,7 @@ class Recipe:
         found = []
         for number, placement in enumerate(self.place if self.tile else ()):
             try:
-                self.tiling.orbit(placement.symmetry, placement.phase, placement.region)
+                self.tiling.orbit(placement.symmetry, placement.phase, placement.spread)
             except GeometryError as error:
                 key = "symmetry" if placement.symmetry else "region"
                 found.append(Fault(str(error), f"place[{number}].{key}"))

@@ -49,7 +49,7 @@ class Placement:
     )
     region: Annotated[
         Spread | None,
-        Says("what the symmetry multiplies; cut at the unit's edges in a mirror repeat, free elsewhere"),
+        Says("what the symmetry multiplies; in a mirror repeat cut, but for a toss, and free elsewhere"),
     ] = None
     gap: Annotated[
         Annotated[Length, Between(0, 1000)] | None,
@@ -89,6 +89,11 @@ class Placement:
 
     def _listed(self) -> str:
         return "[" + ", ".join(quoted(name) for name in self.motifs[:6]) + "]"
+
+    @property
+    def spread(self) -> Spread | None:
+        """What its symmetry multiplies; marks of a toss stay whole, whatever the repeat does with others."""
+        return self.region or (Spread.FREE if isinstance(self.layout, Toss) else None)
 
     @property
     def motifs(self) -> tuple[str, ...]:

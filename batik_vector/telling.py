@@ -1,14 +1,17 @@
-"""The certificate of a tile in words: what ``batik-vector check`` prints for people."""
+"""Reports in words: what ``batik-vector check`` and ``compile`` print for people."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 from batik_vector.units import format_mm
 
 MOST_FAULTS = 20
 """Faults of a tile that are told in words; the report for machines has them all."""
+
+TOLD_PERCENT = 0.001
+"""A stretch below this comes from the grid alone, and nobody need hear of it."""
 
 
 def told(facts: dict[str, Any]) -> list[str]:
@@ -71,3 +74,29 @@ def _faults(facts: dict[str, Any]) -> Iterator[str]:
         x, y = fault["where_mm"]
         ink = f"{fault['ink']}: " if fault["ink"] else ""
         yield f"  at {x:.3f}, {y:.3f} mm: {ink}{fault['words']}"
+
+
+def made_of(done: dict[str, Any]) -> Iterator[str]:
+    """Yield in lines how a compiled recipe came out: what was stretched, what was tossed."""
+    across, along = done.get("stretch_percent", (0.0, 0.0))
+    if max(abs(across), abs(along)) >= TOLD_PERCENT:
+        yield f"stretched by {across:+.3g} % across and {along:+.3g} % along the cloth"
+    for toss in done.get("tossed", ()):
+        counts = ", ".join(
+            f"{count} {name}" for name, count in zip(toss["motifs"], toss["counts"], strict=True)
+        )
+        yield (
+            f"place[{toss['place']}]: {counts} tossed, {100 * toss['covers']:.1f} % covered, "
+            f"{toss['per_m2']:,.0f} per m², least gap {toss['distance']:g} mm"
+        )
+    for number, fits in _by_border(done.get("yardage", {}).get("borders", ())).items():
+        sides = ", ".join(f"{fit['side']} {fit['periods']:g}" for fit in fits)
+        worst = max((fit["stretch"] for fit in fits), key=lambda stretch: abs(stretch - 1))
+        yield f"border[{number}]: periods {sides}; stretched by {100 * (worst - 1):+.3g} % at most"
+
+
+def _by_border(fits: Iterable[dict[str, Any]]) -> dict[int, list[dict[str, Any]]]:
+    found: dict[int, list[dict[str, Any]]] = {}
+    for fit in fits:
+        found.setdefault(fit["border"], []).append(fit)
+    return found

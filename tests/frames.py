@@ -123,7 +123,7 @@ def frames(draw: st.DrawFn) -> tuple[Recipe, list[BorderSpec], tuple[float, floa
                 corner=corner,
                 corner_place=tuple(draw(placements)) if corner == Corner.MOTIF else (),
                 phase=draw(st.floats(-20, 20)),
-                facing=draw(st.sampled_from(list(Facing))),
+                facing=draw(st.sampled_from(list(Facing) if corner == Corner.MOTIF else [Facing.TURN])),
                 ends=draw(st.sampled_from(list(Ends))),
                 sides=tuple(side for side in ClothSide if side in sides),
                 rails=(RailSpec(at=1, width=1.5, ink="indigo"),),

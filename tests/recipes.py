@@ -24,8 +24,22 @@ from batik_vector.geometry.curves import (
 from batik_vector.model import InkSpec, Placement, Recipe
 from batik_vector.motif import Element, Rosette, Treatment
 from batik_vector.tiling.cells import MIRRORS, Cut, TileSpec, repeat_of
+from batik_vector.tiling.fitting import Fit
 from batik_vector.tiling.groups import GROUPS
-from batik_vector.tiling.layouts import Free, Julian, Lattice, Layout, Mirror, Ring, Single, Spot
+from batik_vector.tiling.layouts import (
+    Clear,
+    Free,
+    Julian,
+    Lattice,
+    Layout,
+    Mirror,
+    Ring,
+    RosetteLayout,
+    Single,
+    Spot,
+    Stripes,
+    Toss,
+)
 from batik_vector.tiling.symmetry import Spread
 
 small = st.floats(0.2, 1.5)
@@ -70,34 +84,79 @@ layouts: st.SearchStrategy[Layout] = st.one_of(
             max_size=3,
         ).map(tuple),
     ),
+    st.builds(
+        RosetteLayout,
+        group=st.sampled_from(["C1", "C2", "C5", "D1", "D3", "D4"]),
+        turn=st.floats(-180, 180),
+        axis=st.floats(0, 90),
+    ),
 )
 
-placements = st.builds(
+windings = st.sampled_from([(1, 0), (0, 1), (1, 1), (1, -2), (2, 1)])
+
+grounds: st.SearchStrategy[Layout] = st.one_of(
+    st.builds(
+        Toss,
+        distance=st.floats(0, 2),
+        count=st.integers(1, 6),
+        size=st.tuples(st.floats(0.5, 1), st.floats(1, 1.5)),
+        flip=st.booleans(),
+        clear=st.sampled_from(list(Clear)),
+        tries=st.just(20),
+        settle=st.integers(0, 2),
+        seed=st.integers(0, 1000),
+    ),
+    st.builds(
+        Stripes,
+        count=st.integers(1, 4),
+        winding=windings,
+        links=st.integers(1, 4),
+        flip=st.booleans(),
+        creep=st.integers(-1, 1),
+    ),
+)
+
+gaps = st.one_of(st.none(), st.none(), st.floats(0, 3))
+
+figures = st.builds(
     Placement,
     motif=st.just("m"),
     layout=layouts,
     scale=st.floats(2, 15),
     at=st.tuples(st.floats(-80, 80), st.floats(-80, 80)),
     turn=st.floats(-180, 180),
-    gap=st.one_of(st.none(), st.none(), st.floats(0, 3)),
+    gap=gaps,
 )
 
+filled = st.builds(Placement, motif=st.just("m"), layout=grounds, scale=st.floats(1, 3), gap=gaps)
+
+placements = st.one_of(figures, figures, figures, filled)
+
 side = st.integers(15_000, 60_000).map(lambda steps: steps / 1000)
-dropped = st.sampled_from(["grid", "half-drop", "brick", "drop 1/3", "drop 2/5", "brick 1/4"])
+DROPPED = ["grid", "half-drop", "brick", "drop 1/3", "drop 2/5", "brick 1/4"]
+REPEATS = [*DROPPED, *MIRRORS, *GROUPS]
+dropped = st.sampled_from(DROPPED)
 symmetric = st.sampled_from([*GROUPS, *MIRRORS])
 
 
 @st.composite
-def tiles(draw: st.DrawFn) -> TileSpec:
-    """Draw a repeat: most without symmetries, which a placement may have all the same."""
-    repeat = draw(st.one_of(dropped, dropped, dropped, symmetric))
+def tiles(draw: st.DrawFn, repeats: st.SearchStrategy[str]) -> TileSpec:
+    """Draw a repeat, one in four of them fitted to a machine."""
+    repeat = draw(repeats)
     width, height = draw(side), draw(side)
     ratio = repeat_of(repeat).kind.ratio
     if ratio:
         # A little off, so that it is stretched.
         height = round(width * ratio * draw(st.floats(0.992, 1.008)), 3)
     cut = Cut.RECTANGLE if repeat in MIRRORS else draw(st.sampled_from(list(Cut)))
-    return TileSpec(size=(width, height), repeat=repeat, cut=cut)
+    straight = TileSpec(size=(width, height), repeat=repeat)
+    if draw(st.integers(0, 3)) == 0:
+        stretch, limit = draw(st.integers(1, 3)) * draw(st.floats(0.96, 1.04)), 5.0
+        whole = straight.cell()
+        if draw(st.booleans()):
+            return replace(straight, cut=cut, fit=Fit(width=whole.width * stretch, limit=limit))
+        return replace(straight, cut=cut, fit=Fit(height=whole.height * stretch, limit=limit))
+    return replace(straight, cut=cut)
 
 
 def symmetries(tile: TileSpec) -> list[str]:
@@ -111,10 +170,14 @@ def symmetries(tile: TileSpec) -> list[str]:
 
 
 @st.composite
-def recipes(draw: st.DrawFn) -> Recipe:
-    """Draw a recipe of one motif in two inks, placed once or twice, that always compiles."""
+def recipes(draw: st.DrawFn, repeat: str = "") -> Recipe:
+    """Draw a recipe of one motif in two inks, placed once or twice, that always compiles.
+
+    Without a repeat given, most are without symmetries, which a placement may have all the same.
+    """
     overlap = st.sampled_from(list(Overlap))
-    tile = draw(tiles())
+    repeats = st.just(repeat) if repeat else st.one_of(dropped, dropped, dropped, symmetric)
+    tile = draw(tiles(repeats))
     known = st.sampled_from(symmetries(tile) if draw(st.integers(0, 2)) == 0 else [""])
     phase = draw(st.tuples(st.floats(-30, 30), st.floats(-30, 30)))
 

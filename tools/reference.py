@@ -77,7 +77,7 @@ def expected(hint: Any) -> str:
         return ", ".join(f"`{member.value}`" for member in base)
     length = any(isinstance(mark, LengthUnit) for mark in marks)
     if bounds is not None:
-        low, high = (f"{n:g}" if n < 1e5 else f"{n:,.0f}" for n in (bounds.low, bounds.high))
+        low, high = (f"{n:g}" if n < 1e5 else f"{int(n):,}" for n in (bounds.low, bounds.high))
         span = f"{low} to {high}"
         return f"length, {span} mm" if length else span
     if length:

@@ -11,8 +11,9 @@ check proves, and what it lets pass, is said at the head of its module.
 
 from __future__ import annotations
 
+from batik_vector.certificate.asking import Asked
 from batik_vector.certificate.certifying import certify
 from batik_vector.certificate.pointers import pointers
 from batik_vector.certificate.report import Certificate, Kind, Limits, Measures, SeamFault
 
-__all__ = ["Certificate", "Kind", "Limits", "Measures", "SeamFault", "certify", "pointers"]
+__all__ = ["Asked", "Certificate", "Kind", "Limits", "Measures", "SeamFault", "certify", "pointers"]

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from batik_vector.artwork import Artwork
+from batik_vector.certificate.asking import Asked, contained
 from batik_vector.certificate.crossings import Crossings, area_crossings, break_faults
 from batik_vector.certificate.doubles import doubled_areas, doubled_lines
 from batik_vector.certificate.drawing import Drawing, InkDrawing, drawing, uncut
@@ -18,7 +19,7 @@ from batik_vector.certificate.seam import Seam, seams_of
 from batik_vector.certificate.shifts import agreeing_shift, all_events, shift_fault
 from batik_vector.certificate.slivers import sliver_fault, slivers
 from batik_vector.certificate.striping import profile, unevenness
-from batik_vector.certificate.symmetry import found_group
+from batik_vector.certificate.symmetry import STRETCH, found_group
 from batik_vector.certificate.turns import Turns, border_turns, line_turns, turn_faults
 from batik_vector.tiling.groups import group
 from batik_vector.units import STEPS_PER_MM, format_mm
@@ -42,14 +43,15 @@ class _Ledger:
 
 
 def certify(
-    artwork: Artwork, *, asked: str | None = None, limits: Limits = DEFAULT, symmetry: bool = True
+    artwork: Artwork, *, asked: str | Asked | None = None, limits: Limits = DEFAULT, symmetry: bool = True
 ) -> Certificate:
     """Measure the seams of a tile.
 
     Args:
         artwork: a tile; areas of one ink may overlap, rings be invalid, marks reach beyond the page. What
             lies beyond the page does not count as drawn, except in a bleed.
-        asked: the symmetry group it ought to have, by any accepted name; None only reports the group.
+        asked: the symmetry group it ought to have, by any accepted name, that and no more; or what is
+            asked of it in other words. None only reports the group.
         limits: how much is allowed.
         symmetry: whether to look for the symmetry group, which takes longest; it is done anyway where one
             was asked for.
@@ -58,7 +60,7 @@ def certify(
         GeometryError: where a coordinate is not finite.
         UnknownNameError: where the group asked for is none.
     """
-    asked = None if asked is None else group(asked).name
+    wanted = Asked(group(asked).name) if isinstance(asked, str) else asked
     tile = drawing(artwork)
     ledger = _Ledger(limits, {ink.ink.name: [] for ink in tile})
     _check_crossings(tile, artwork, ledger)
@@ -66,7 +68,7 @@ def certify(
         _check_field(ink, tile, artwork, ledger)
         _check_doubles(ink, tile, ledger)
     columns, rows = (_check_striping(tile, axis, ledger) for axis in (0, 1))
-    found = _check_symmetry(artwork, asked, ledger) if symmetry or asked else None
+    found = _check_symmetry(artwork, wanted, ledger) if symmetry or wanted else None
     inks = {name: together(measures) for name, measures in ledger.noted.items()}
     return Certificate(
         title=artwork.title,
@@ -78,7 +80,7 @@ def certify(
         worst=replace(together(inks.values()), columns=columns, rows=rows),
         inks=inks,
         group=found,
-        asked=asked,
+        asked=wanted.name if wanted else None,
         faults=tuple(ledger.faults),
     )
 
@@ -176,14 +178,15 @@ def _check_striping(tile: Drawing, axis: int, ledger: _Ledger) -> float:
     return figure
 
 
-def _check_symmetry(artwork: Artwork, asked: str | None, ledger: _Ledger) -> str:
+def _check_symmetry(artwork: Artwork, asked: Asked | None, ledger: _Ledger) -> str:
     """Return the group found; accuse it of being another than the one asked for."""
-    found = found_group(artwork.layers, artwork.cell, artwork.tolerance)
-    if asked is None or found.name == asked:
+    stretch = max(STRETCH, asked.stretch if asked else 0.0)
+    found = found_group(artwork.layers, artwork.cell, artwork.tolerance, stretch=stretch)
+    if asked is None or asked.allows(found.name):
         return found.name
-    words = f"the drawing has the symmetry group {found.name}, and {asked} was asked for"
+    words = f"the drawing has the symmetry group {found.name}, and {asked.name} was asked for"
     where, ink, amount = (artwork.cell.width / 2, artwork.cell.height / 2), "", 0.0
-    if _order(found.name) > _order(asked):
+    if asked.name in contained(found.name):
         words += ": it has more symmetry than that"
     elif found.misses:
         miss = found.misses[0]
@@ -191,8 +194,3 @@ def _check_symmetry(artwork: Artwork, asked: str | None, ledger: _Ledger) -> str
         words += f"; it misses the nearest other operation by {format_mm(amount)} mm here"
     ledger.accuse(SeamFault(Kind.SYMMETRY, ink, where, words, amount))
     return found.name
-
-
-def _order(name: str) -> int:
-    """Return how many rotations and reflections a group has, translations apart."""
-    return group(name).copies // len(group(name).translations)

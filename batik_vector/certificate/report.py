@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import enum
+import math
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass, fields
 from typing import Any
+
+from batik_vector.errors import GeometryError
 
 Place = tuple[float, float]
 
@@ -56,6 +59,11 @@ class Limits:
     """Lines this close (mm) along a stretch are one line drawn twice."""
     striping: float | None = None
     """Unevenness (percent) of columns or rows past which the tile fails; None only reports it."""
+
+    def __post_init__(self) -> None:
+        for name, value in vars(self).items():
+            if value is not None and not 0 <= value < math.inf:
+                raise GeometryError(f"{name} = {value}, expected a number from 0 on")
 
 
 @dataclass(frozen=True)

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from batik_vector.errors import TooLargeError
 from batik_vector.importing.outlines import CURVE, LINE, MOVE, Outline
 from batik_vector.units import STEPS_PER_MM
 
@@ -29,6 +30,8 @@ SAMPLES = 33
 """Places at which a curve is looked at for crossings; two between neighbouring places are overlooked,
 where it only dips over the edge and back."""
 MAX_PIECES = 10_000
+MAX_POINTS = 20_000_000
+"""Points of all polylines of a drawing together; they take some 50 bytes each while curves are divided."""
 FINER = 3
 """By how much curves that meet an edge of the page are divided more finely, since a chord hides a kink at
 the seam that is no sharper than the chord's own turn."""
@@ -59,6 +62,9 @@ def flattened(outline: Outline, width: float, height: float, tolerance: float) -
         width: of the page, in mm.
         height: of the page, in mm.
         tolerance: in mm.
+
+    Raises:
+        TooLargeError: where the polylines would have more than ``MAX_POINTS`` points.
     """
     points = snapped(outline.points, width, height)
     end = np.flatnonzero(outline.kinds == CURVE)
@@ -109,6 +115,11 @@ def _divided(
     )
     # A hair less than the bound, so that twins whose floats differ in the last bit get the same count.
     pieces = np.clip(np.ceil(need[owner] * (stop - start) - 1e-6), 1, MAX_PIECES).astype(np.intp)
+    if (total := int(pieces.sum())) > MAX_POINTS:
+        raise TooLargeError(
+            f"its curves come to {total:,} points, expected at most {MAX_POINTS:,}: "
+            "draw them smaller, or read them with a greater tolerance"
+        )
     span = np.repeat(np.arange(len(owner)), pieces)
     rank = np.arange(len(span)) - np.repeat(np.cumsum(pieces) - pieces, pieces) + 1
     at = start[span] + (stop - start)[span] * (rank / pieces[span])

@@ -15,8 +15,23 @@ from numpy.typing import NDArray
 
 Matrix: TypeAlias = tuple[float, float, float, float, float, float]
 IDENTITY: Matrix = (1.0, 0.0, 0.0, 1.0, 0.0, 0.0)
-_CALL = re.compile(r"\s*,?\s*(matrix|translate|scale|rotate|skewX|skewY)\s*\(([^()]*)\)\s*")
-_NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,3})?")
+NUMBER = r"[-+]?+(?:\d++\.?+\d*+|\.\d++)(?:[eE][-+]?+\d++)?+"
+"""Possessive throughout: a number is never tried shorter, so that no text takes longer than its length."""
+PX_PER_INCH = 96.0
+PX_PER_UNIT = {
+    "": 1.0,
+    "px": 1.0,
+    "pt": PX_PER_INCH / 72,
+    "pc": PX_PER_INCH / 6,
+    "in": PX_PER_INCH,
+    "cm": PX_PER_INCH / 2.54,
+    "mm": PX_PER_INCH / 25.4,
+    "q": PX_PER_INCH / 101.6,
+}
+_DEGREES = {"": 1.0, "deg": 1.0, "grad": 0.9, "rad": math.degrees(1.0), "turn": 360.0}
+_BARE = {"": 1.0}
+_CALL = re.compile(r"\s*+,?+\s*+(matrix|translate|scale|rotate|skewX|skewY)\s*+\(([^()]*+)\)\s*+")
+_TERM = re.compile(rf"[\s,]*+({NUMBER})([a-zA-Z%]*+)")
 _COUNTS = {
     "matrix": (6,),
     "translate": (1, 2),
@@ -67,11 +82,27 @@ def parse_transform(text: str) -> Matrix:
         match = _CALL.match(text, at)
         if match is None:
             raise ValueError(f'transform "{text[:80]}" cannot be read')
-        matrix = times(matrix, _called(match[1], [float(each) for each in _NUMBER.findall(match[2])]))
+        matrix = times(matrix, _called(match[1], _terms(match[1], match[2])))
         at = match.end()
     if not all(map(math.isfinite, matrix)):
         raise ValueError(f'transform "{text[:80]}" is not finite')
     return matrix
+
+
+def _terms(name: str, text: str) -> list[float]:
+    """Return what a function is given: plain numbers, degrees and px, from the units of CSS Transforms 1."""
+    found: list[float] = []
+    at = 0
+    while match := _TERM.match(text, at):
+        angle = name in ("skewX", "skewY") or (name == "rotate" and not found)
+        units = _DEGREES if angle else PX_PER_UNIT if name in ("translate", "rotate") else _BARE
+        if match[2].lower() not in units:
+            break
+        found.append(float(match[1]) * units[match[2].lower()])
+        at = match.end()
+    if text[at:].strip(" \t\r\n,"):
+        raise ValueError(f'transform "{name}({text[:60]})" cannot be read')
+    return found
 
 
 def _called(name: str, numbers: Sequence[float]) -> Matrix:

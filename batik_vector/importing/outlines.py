@@ -14,8 +14,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from batik_vector.importing.matrix import Matrix, moved
-from batik_vector.importing.page import NUMBER
+from batik_vector.importing.matrix import NUMBER, Matrix, moved
 
 Points = NDArray[np.float64]
 MOVE, LINE, CONTROL, CURVE = range(4)
@@ -43,7 +42,9 @@ _COMMAND = re.compile(r"([MmZzLlHhVvCcSsQqTtAa])([^MmZzLlHhVvCcSsQqTtAa]*)")
 _NUMBERS = re.compile(NUMBER)
 _ALL_NUMBERS = re.compile(r"(?:[\s,]*+[-+]?+(?:\d++\.?+\d*+|\.\d++)(?:[eE][-+]?+\d++)?+)*+[\s,]*+")
 _ARC = re.compile(
-    rf"[\s,]*({NUMBER})[\s,]*({NUMBER})[\s,]*({NUMBER})[\s,]*([01])[\s,]*([01])[\s,]*({NUMBER})[\s,]*({NUMBER})"
+    r"[\s,]*+({0})[\s,]*+({0})[\s,]*+({0})[\s,]*+([01])[\s,]*+([01])[\s,]*+({0})[\s,]*+({0})".replace(
+        "{0}", NUMBER
+    )
 )
 _TAKES = {"M": 2, "L": 2, "H": 1, "V": 1, "C": 6, "S": 4, "Q": 4, "T": 2, "A": 7, "Z": 0}
 _SMOOTH_AFTER = {"S": "CS", "T": "QT"}

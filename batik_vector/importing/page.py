@@ -12,24 +12,12 @@ import xml.etree.ElementTree as ET
 from dataclasses import dataclass
 
 from batik_vector.importing.document import Document
-from batik_vector.importing.matrix import Matrix, times
+from batik_vector.importing.matrix import NUMBER, PX_PER_INCH, PX_PER_UNIT, Matrix, times
 from batik_vector.units import GRID_MM, format_mm
 
-PX_PER_INCH = 96.0
 MM_PER_PX = 25.4 / PX_PER_INCH
-PX_PER_UNIT = {
-    "": 1.0,
-    "px": 1.0,
-    "pt": PX_PER_INCH / 72,
-    "pc": PX_PER_INCH / 6,
-    "in": PX_PER_INCH,
-    "cm": PX_PER_INCH / 2.54,
-    "mm": PX_PER_INCH / 25.4,
-    "q": PX_PER_INCH / 101.6,
-}
 LEAST_MM, MOST_MM = 0.1, 20_000.0
-NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,3})?"
-_LENGTH = re.compile(rf"\s*({NUMBER})\s*([a-zA-Z]*|%)\s*")
+_LENGTH = re.compile(rf"\s*+({NUMBER})\s*+(%|[a-zA-Z]*+)\s*+")
 _ASPECT = re.compile(r"\s*(?:defer\s+)?(?:none|x(Min|Mid|Max)Y(Min|Mid|Max))(?:\s+(meet|slice))?\s*")
 
 Box = tuple[float, float, float, float]

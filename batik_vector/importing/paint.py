@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import re
 import xml.etree.ElementTree as ET
+import zlib
 
+from batik_vector.importing.colours import colour_of
 from batik_vector.importing.document import MAX_DEPTH, Document, local, reference
-from batik_vector.importing.styles import Style, colour_of, share_of
+from batik_vector.importing.styles import Style, share_of
 
 EXPAND = "expand it to outlines first"
-URL = re.compile(r"""\s*url\(\s*['"]?\s*([^'")]*?)\s*['"]?\s*\)\s*(.*)""", re.DOTALL)
+_URL = re.compile(r"""\s*+url\(\s*+['"]?+([^'")]*+)['"]?+\s*+\)(.*+)""", re.DOTALL)
 GRADIENTS = ("linearGradient", "radialGradient", "meshgradient")
 
 
@@ -26,18 +28,30 @@ def paint_of(document: Document, element: ET.Element, style: Style, what: str) -
     share = share_of(style[f"{what}-opacity"])
     if text in ("none", "context-fill", "context-stroke") or share == 0:
         return ""
-    match = URL.fullmatch(text)
-    if match:
-        return _server(document, element, match[1], match[2])
+    server = url_of(text)
+    if server is not None:
+        return _server(document, element, *server)
     found = colour_of(text, style["color"])
     if found is None:
-        document.note(f'the colour "{text[:40]}" is not understood, and taken as black')
-        return "#000000"
+        return _stand_in(document, style["color"] if text.lower() == "currentcolor" else text)
     colour, opacity = found
     if opacity == 0:
         return ""
     if opacity * share * share_of(style.get("opacity", "1")) < 1:
         document.note("what is half transparent is taken as solid")
+    return colour
+
+
+def url_of(text: str) -> tuple[str, str] | None:
+    """Return what url() refers to and what stands behind it, or None where the text is no url()."""
+    match = _URL.fullmatch(text)
+    return None if match is None else (match[1].strip(), match[2].strip())
+
+
+def _stand_in(document: Document, text: str) -> str:
+    """Return a colour for one that is not understood, another for every text, so that inks stay apart."""
+    colour = f"#{zlib.crc32(text.encode('utf-8', 'replace')) & 0xFFFFFF:06x}"
+    document.note(f'the colour "{text[:40]}" is not understood; {colour} stands for it')
     return colour
 
 
@@ -52,7 +66,9 @@ def _server(document: Document, element: ET.Element, target: str, fallback: str)
         document.refuse(element, f"is filled with a {kind}; {EXPAND}")
     elif fallback and fallback != "none":
         found = colour_of(fallback)
-        return found[0] if found and found[1] else ""
+        if found is None:
+            return _stand_in(document, fallback)
+        return found[0] if found[1] else ""
     return ""
 
 
@@ -62,8 +78,9 @@ def _first_stop(document: Document, server: ET.Element | None) -> str:
             break
         for stop in server.iter():
             if local(stop) == "stop":
-                found = colour_of(_declared(stop, "stop-color") or "black")
-                return found[0] if found else "#000000"
+                text = _declared(stop, "stop-color") or "black"
+                found = colour_of(text)
+                return found[0] if found else _stand_in(document, text)
         server = document.by_id.get(reference(server)[1:])
     return ""
 

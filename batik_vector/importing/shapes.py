@@ -8,8 +8,9 @@ import xml.etree.ElementTree as ET
 import numpy as np
 
 from batik_vector.importing.document import local
+from batik_vector.importing.matrix import NUMBER
 from batik_vector.importing.outlines import EMPTY, Outline, ellipse, parse_path, polyline, rectangle
-from batik_vector.importing.page import NUMBER, parse_px
+from batik_vector.importing.page import parse_px
 
 SHAPES = frozenset(("path", "rect", "circle", "ellipse", "line", "polyline", "polygon"))
 _POINTS = re.compile(rf"(?:[\s,]*+(?:{NUMBER}))*+[\s,]*+")

@@ -7,8 +7,10 @@ read that say what is drawn where; the rest is passed over.
 from __future__ import annotations
 
 import functools
+import re
 import xml.etree.ElementTree as ET
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -29,10 +31,30 @@ INITIAL: Mapping[str, str] = {
     "marker-end": "none",
 }
 """The properties that children inherit, and how they begin (SVG 2, appendix F)."""
-OWN = ("display", "opacity", "clip-path", "mask", "filter", "overflow", "transform", "vector-effect")
+ORIGIN = ("transform-origin", "transform-box")
+OWN = ("display", "opacity", "clip-path", "mask", "filter", "overflow", "transform", "vector-effect", *ORIGIN)
 """The properties that stay with their element."""
 READ = frozenset(INITIAL) | frozenset(OWN) | {"marker"}
+GEOMETRY: Mapping[str, tuple[str, ...]] = {
+    "path": ("d",),
+    "rect": ("x", "y", "width", "height", "rx", "ry"),
+    "circle": ("cx", "cy", "r"),
+    "ellipse": ("cx", "cy", "rx", "ry"),
+    "svg": ("x", "y", "width", "height"),
+    "use": ("x", "y", "width", "height"),
+    "symbol": ("x", "y", "width", "height"),
+}
+"""The properties by which a style may say where an element lies, beside its attributes (SVG 2, 7.2)."""
+MOVES = ("rotate", "scale", "translate", "offset", "offset-path", "zoom")
+"""The properties by which a style moves any element, and which are no attributes (CSS Transforms 2, 5)."""
+_DECLARED = READ.union(MOVES, *GEOMETRY.values())
 
+MAX_COMBINATORS = 4
+"""Steps such as ``g > .leaf`` in a selector; each may try all the elements round one."""
+MAX_TRIALS = 100_000_000
+"""Trials that the selectors of all rules may come to."""
+
+_STEP = re.compile(r"\s*+[>+~]\s*+|\s++")
 _HARMLESS = ("font-face", "charset", "namespace")
 
 Style = Mapping[str, str]
@@ -82,13 +104,26 @@ class Styles:
         import cssselect2  # type: ignore[import-untyped]
 
         matcher = cssselect2.Matcher()
+        trials = _Trials(self.document.root)
         for selectors, declarations in self._rules(text):
+            name = f'the <style> rule "{selectors[:60].strip()}"'
+            steps = _steps(selectors)
+            if steps > MAX_COMBINATORS:
+                self.document.note(
+                    f"{name} has {steps} steps, more than {MAX_COMBINATORS}; it is passed over"
+                )
+                continue
             try:
-                for selector in cssselect2.compile_selector_list(selectors):
-                    if selector.pseudo_element is None:
-                        matcher.add_selector(selector, declarations)
-            except cssselect2.SelectorError:
-                self.document.note(f'the <style> rule "{selectors[:60].strip()}" is not understood')
+                found_all = cssselect2.compile_selector_list(selectors)
+            except (cssselect2.SelectorError, RecursionError):
+                self.document.note(f"{name} is not understood")
+                continue
+            if not trials.take(found_all, selectors, steps):
+                self.document.note(f"{name} would take too long to match; it is passed over")
+                continue
+            for selector in found_all:
+                if selector.pseudo_element is None:
+                    matcher.add_selector(selector, declarations)
         for node in cssselect2.ElementWrapper.from_xml_root(self.document.root).iter_subtree():
             found = sorted(matcher.match(node), key=lambda match: match[:2])
             values: dict[str, tuple[str, bool]] = {}
@@ -114,6 +149,62 @@ class Styles:
         return rules
 
 
+def _steps(selectors: str) -> int:
+    """Return how many combinators the longest of several selectors may have, brackets counted in."""
+    import tinycss2
+
+    most, at = 0, 0
+    for token in [*tinycss2.parse_component_value_list(selectors.strip(), skip_comments=True), None]:
+        if token is None or token == ",":
+            most, at = max(most, at), 0
+        elif token.type in ("function", "() block"):
+            inside = token.arguments if token.type == "function" else token.content
+            at += len(_STEP.findall(tinycss2.serialize(inside)))
+        else:
+            at += len(_STEP.findall(token.serialize()))
+    return most
+
+
+class _Trials:
+    """How often the selectors of a style sheet try whether an element is meant."""
+
+    def __init__(self, root: ET.Element) -> None:
+        self._named: Counter[str] = Counter()
+        self._left = MAX_TRIALS
+        self._all = 0
+        for element in root.iter():
+            self._all += 1
+            self._named.update("." + name for name in set(element.get("class", "").split()))
+            self._named.update(("#" + element.get("id", ""), element.tag.rpartition("}")[2].lower()))
+        self._depth = _depth(root)
+
+    def take(self, selectors: Sequence[Any], text: str, steps: int) -> bool:
+        """Return whether selectors may still be matched, and count them in."""
+        # Brothers and what :has() looks through may be all the elements there are.
+        reach = self._all if "~" in text or ":has(" in text.lower() else self._depth
+        trials = sum(self._subjects(selector) for selector in selectors) * reach**steps
+        if trials > self._left:
+            return False
+        self._left -= trials
+        return True
+
+    def _subjects(self, selector: Any) -> int:
+        if selector.id is not None:
+            return self._named["#" + selector.id]
+        if selector.class_name is not None:
+            return self._named["." + selector.class_name]
+        if selector.lower_local_name is not None:
+            return self._named[selector.lower_local_name]
+        return self._all
+
+
+def _depth(root: ET.Element) -> int:
+    depth, level = 0, [root]
+    while level:
+        depth, level = depth + 1, [child for element in level for child in element]
+    return depth
+
+
 @functools.lru_cache(4096)
 def declared(text: str) -> dict[str, tuple[str, bool]]:
     """Return the properties that declarations set, each with its value and whether it is important."""
@@ -121,25 +212,11 @@ def declared(text: str) -> dict[str, tuple[str, bool]]:
 
     found: dict[str, tuple[str, bool]] = {}
     for each in tinycss2.parse_declaration_list(text, skip_comments=True, skip_whitespace=True):
-        if each.type == "declaration" and each.lower_name in READ:
+        if each.type == "declaration" and each.lower_name in _DECLARED:
             value = tinycss2.serialize(each.value).strip()
             if each.important or not found.get(each.lower_name, ("", False))[1]:
                 found[each.lower_name] = (value, each.important)
     return found
-
-
-@functools.lru_cache(4096)
-def colour_of(text: str, current: str = "black") -> tuple[str, float] | None:
-    """Return a CSS colour as (``#rrggbb``, opacity), or None where the text is none."""
-    import tinycss2.color3  # type: ignore[import-untyped]
-
-    colour: Any = tinycss2.color3.parse_color(text.partition("icc-color(")[0])
-    if colour == "currentColor":
-        return None if current.lower() == "currentcolor" else colour_of(current)
-    if colour is None:
-        return None
-    levels = (max(0, min(255, int(255 * part + 0.5))) for part in colour[:3])
-    return "#{:02x}{:02x}{:02x}".format(*levels), float(max(0.0, min(1.0, colour.alpha)))
 
 
 def share_of(text: str) -> float:

@@ -16,7 +16,7 @@ from fractions import Fraction
 import numpy as np
 
 from batik_vector.artwork import Artwork, Cell, DropAxis
-from batik_vector.errors import GeometryError
+from batik_vector.errors import GeometryError, TooLargeError
 from batik_vector.importing.document import Document, DrawingError, children, load, local, parse
 from batik_vector.importing.flatten import flattened
 from batik_vector.importing.inks import Marks, layers_of, painted
@@ -92,7 +92,10 @@ def read_svg(
     shapes = Walker(document, page).walk()
     if not shapes:
         raise document.fault("nothing is drawn: no shape has a fill or a stroke that shows")
-    marks = _marks(shapes, page, cell, tolerance, bleed)
+    try:
+        marks = _marks(shapes, page, cell, tolerance, bleed)
+    except TooLargeError as error:
+        raise document.fault(str(error)) from error
     layers, cloth = layers_of(document, marks, cell, bleed, ours)
     _page_notes(document, page, cell, bleed)
     artwork = Artwork(_title(document), cell, layers, cloth, tolerance, bleed)

@@ -115,9 +115,15 @@ def _told(error: Mapping[str, Any], spot: _Spot) -> list[Found]:
     if kind in _BOUNDS:
         return [_found(spot, f"{shown(spot.value)}, expected {span(spot.hint)}")]
     if spot.hint.names and isinstance(spot.value, str):
-        words = unknown_name(spot.value, spot.hint.names, str(spot.path[-1]))
+        words = unknown_name(spot.value, spot.hint.names, _what(spot.path))
         return [_found(spot, words)]
     return [_found(spot, f"{shown(spot.value)}, expected {_expected(spot)}")]
+
+
+def _what(path: Path) -> str:
+    """Return what a value at a path is called: its key, and within a list one of what the key names."""
+    key = next((part for part in reversed(path) if isinstance(part, str)), "value")
+    return key if path[-1] == key else key.removesuffix("s")
 
 
 def _expected(spot: _Spot) -> str:

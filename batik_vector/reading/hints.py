@@ -167,6 +167,8 @@ def _expected_other(hint: Hint) -> str:
         assert hint.item is not None
         if hint.item.one_of or dataclasses.is_dataclass(hint.item.base):
             return "a list of tables"
+        if hint.item.names:
+            return "a list of " + ", ".join(f'"{name}"' for name in hint.item.names)
         return "a list of text" if hint.item.base is str else "a list of lists of numbers"
     if hint.origin is dict:
         return "tables by name"

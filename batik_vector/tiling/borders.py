@@ -25,6 +25,8 @@ from batik_vector.units import STEPS_PER_MM, format_mm
 SIDES = {"bottom": (0, 1), "right": (1, 2), "top": (2, 3), "left": (3, 0)}
 """Sides anticlockwise, each from the corner where it begins to the one where it ends."""
 
+CORNER_NAMES = ("lower left", "lower right", "upper right", "upper left")
+
 BACKWARDS = {"turn": (), "mirror": ("top", "left"), "mitre": ("right", "left")}
 """Which sides run the other way, so that opposite ones, or those that meet in a corner, are mirror images."""
 
@@ -180,19 +182,25 @@ def mitred_round(sides: Sequence[Side], corners: Collection[int], m: Measures) -
         side.length / (counts[side.name] * m.period) for side in sides if m.whole or all(mitres[side.name])
     ] or [1.0]
 
-    def courses(stretch: float) -> list[Course]:
-        return [_mitred(side, mitres[side.name], counts[side.name], stretch, sides, m) for side in sides]
+    def courses(stretch: float, lay: bool = False) -> list[Course]:
+        return [_mitred(side, mitres[side.name], counts[side.name], stretch, sides, m, lay) for side in sides]
 
-    tried = [courses(float(stretch)) for stretch in np.linspace(min(means), max(means), TRIES)]
-    best = min(tried, key=lambda found: max(abs(course.stretch - 1) for course in found))
-    _refuse_past_limit(best, [side.length for side in sides], m)
-    return best
+    tried = np.linspace(min(means), max(means), TRIES).tolist()
+    best = min(tried, key=lambda stretch: max(abs(course.stretch - 1) for course in courses(stretch)))
+    _refuse_past_limit(courses(best), [side.length for side in sides], m)
+    return courses(best, lay=True)
 
 
 def _mitred(
-    side: Side, mitres: tuple[bool, bool], count: int, stretch: float, sides: Sequence[Side], m: Measures
+    side: Side,
+    mitres: tuple[bool, bool],
+    count: int,
+    stretch: float,
+    sides: Sequence[Side],
+    m: Measures,
+    lay: bool,
 ) -> Course:
-    """Lay one side of which the corners have a given stretch."""
+    """Lay one side of which the corners have a given stretch, or measure how it would be stretched only."""
     ends = sum(mitres)
     zone = math.ceil(m.depth / (stretch * m.period) - 1e-9) * m.period
     if any(other.length < 2.5 * stretch * zone for other in sides):
@@ -215,10 +223,11 @@ def _mitred(
     else:
         between = (inner[3] - inner[2]) / (inner[1] - inner[0])
         worst = max([stretch, between] if ends else [between], key=lambda each: abs(each - 1))
-    laid = m.spans(first, inner[0], 0, room) if mitres[0] else []
-    if math.isfinite(worst):
+    laid: list[Span] = []
+    if lay:
+        laid += m.spans(first, inner[0], 0, room) if mitres[0] else []
         laid += m.spans(inner[0], inner[1], inner[2], inner[3])
-    laid += m.spans(inner[1], last, side.length - room, side.length) if mitres[1] else []
+        laid += m.spans(inner[1], last, side.length - room, side.length) if mitres[1] else []
     return Course(side, laid, mitres, (last - first) / m.period, worst)
 
 
@@ -305,24 +314,34 @@ def _refuse_past_limit(
     courses: Sequence[Course], lengths: Sequence[int], m: Measures, what: str = ""
 ) -> None:
     """Raise where a course is stretched past the limit, with the period and the lengths that would do."""
-    worst = max(range(len(courses)), key=lambda i: abs(courses[i].stretch - 1))
-    course, length = courses[worst], lengths[worst]
-    if abs(course.stretch - 1) <= m.limit + 1e-12:
+    stretch = [course.stretch for course in courses]
+    if all(abs(each - 1) <= m.limit + 1e-12 for each in stretch):
         return
+    # Each side by itself: what sides do to one another at mitres is told only where each would fit alone.
+    alone = [_alone(course, length, m) for course, length in zip(courses, lengths, strict=True)]
+    shared = not what and all(abs(each - 1) <= m.limit + 1e-12 for each in alone)
+    if not what and not shared:
+        stretch = alone
+    worst = max(range(len(courses)), key=lambda i: abs(stretch[i] - 1))
     period = m.period / STEPS_PER_MM
-    run = length / STEPS_PER_MM
-    lower = math.floor(run / period)
-    offers = [format_mm((run if not k else 0) + k * period) for k in (lower, lower + 1) if k]
-    spoken = what or f"the {course.side.name} side"
-    percent = "" if math.isinf(course.stretch) else f" by {abs(course.stretch - 1):.1%}"
-    verb = "stretched" if course.stretch > 1 else "squeezed"
+    run = lengths[worst] / STEPS_PER_MM
+    offers = [format_mm(k * period) for k in (math.floor(run / period), math.floor(run / period) + 1) if k]
+    spoken = what or f"the {courses[worst].side.name} side"
+    percent = "" if math.isinf(stretch[worst]) else f" by {abs(stretch[worst] - 1):.1%}"
+    verb = "stretched" if stretch[worst] > 1 else "squeezed"
     near = _nearest_period(lengths, m)
     raise GeometryError(
         f"{spoken}, {format_mm(run)} mm, holds {run / period:.2f} periods of {format_mm(period)} mm: "
+        f"{'to meet the other sides at its corners ' if shared else ''}"
         f"they would be {verb}{percent}, past the limit of {m.limit:.1%}; expected "
         + (f"a period of {format_mm(near)} mm, or " if near else "")
         + f"{' or '.join(offers)} mm of length"
     )
+
+
+def _alone(course: Course, length: int, m: Measures) -> float:
+    """Return the factor on the period that brings a whole number of periods to a length."""
+    return length / (course.periods * m.period) if course.periods.is_integer() else course.stretch
 
 
 def _nearest_period(lengths: Sequence[int], m: Measures) -> float:

@@ -24,6 +24,8 @@ TICK = 5.0
 BAR = 100.0
 """The calibration bar: who measures it knows whether the file came out at its size."""
 PART = 10.0
+STROKE = 4.0
+"""Height of the strokes at the ends of the bar."""
 
 
 def guide_ink(cloth: str) -> Ink:
@@ -62,8 +64,13 @@ class Guides:
         side = to_steps(max(outside, self.selvedge + CLEAR))
         # The bar is left of nothing narrower than itself.
         right = to_steps(max(side / MM, self.start + BAR + 2 * CLEAR - self.width))
-        end = to_steps(outside)
-        return Margins(side, end, right, end)
+        below = outside if self._beside else outside + STROKE + CLEAR
+        return Margins(side, to_steps(below), right, to_steps(outside))
+
+    @property
+    def _beside(self) -> bool:
+        """Whether the bar lies between the trim marks and crosses at both corners, or on a row below them."""
+        return self.width >= self.start + BAR + 2 * CLEAR
 
     def outlines(self) -> Outlines:
         """Return all marks as lines, in steps."""
@@ -114,8 +121,8 @@ class Guides:
 
     def _bar(self) -> Iterator[NDArray[np.float64]]:
         """Yield a bar of 100 mm below the printed area, with a stroke at every 10 mm."""
-        x, y = self.start + CLEAR, -self.start - ARM / 2
+        x, y = self.start + CLEAR, -self.start - (ARM / 2 if self._beside else ARM + CLEAR + STROKE / 2)
         yield np.array([(x, y), (x + BAR, y)])
         for part in range(int(BAR / PART) + 1):
-            half = 2.0 if part in (0, int(BAR / PART)) else 1.0
+            half = STROKE / 2 if part in (0, int(BAR / PART)) else STROKE / 4
             yield np.array([(x + part * PART, y - half), (x + part * PART, y + half)])

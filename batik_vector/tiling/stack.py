@@ -18,6 +18,7 @@ from batik_vector.artwork import Cell, Geometries, Ink, Layer, Overlap
 from batik_vector.errors import SeamError, TooLargeError
 from batik_vector.geometry.regions import oriented
 from batik_vector.tiling import overlay, seams
+from batik_vector.tiling.endings import Places, lone_ends, own_ends
 from batik_vector.tiling.once import drawn_once
 from batik_vector.tiling.torus import (
     Lattice,
@@ -100,7 +101,8 @@ def assemble(
 ) -> tuple[tuple[Layer, ...], Borders]:
     """Return the layers of a tile, in the normal form, one for every ink that draws something.
 
-    With them come the borders that run along the seam: see :class:`~batik_vector.artwork.Artwork`.
+    With them come the borders that run along the seam, and as borders of no length the places at which a
+    line ends on it: see :class:`~batik_vector.artwork.Artwork`.
 
     Args:
         sheets: bottom first, in mm.
@@ -156,12 +158,12 @@ def _assemble_on(
         if sheet.ink is not None:
             filled, centre_lines = _uncut(sheet, torus, cutters)
             drawn = torus.areas(filled, number)
-            strokes = torus.lines(centre_lines, number)
+            strokes = torus.lines(centre_lines, number, sheet.ink.name)
             if above and len(strokes.geometries):
                 # A line ends where its body, and not its centre, meets the gap.
                 shapes = [_cutting_shape(upper, tolerance, sheet.ink.width / 2) for upper in above]
                 bodies, _ = welded(torus.areas(np.concatenate(shapes), 0).geometries)
-                strokes = _cut(strokes, bodies, lines_of)
+                strokes = torus.cut_lines(strokes, bodies, sheet.ink.name)
             areas[sheet.ink.name].extend(_cut(drawn, cutters, polygons_of))
             lines[sheet.ink.name].extend(strokes)
         if sheet.gap is not None:
@@ -175,20 +177,21 @@ def _assemble_on(
         merged.geometries = seams.mended(merged.geometries, torus.cell)
         if not torus.seam_holds(ink.name, merged.geometries):
             return None
-        layers.append(
-            _layer(ink, merged, drawn_once(lines[ink.name].geometries, lines[ink.name].names), names)
-        )
+        once = drawn_once(lines[ink.name].geometries, lines[ink.name].names)
+        torus.record_ends(ink.name, once[0])
+        layers.append(_layer(ink, merged, once, names))
     return tuple(layer for layer in layers if len(layer.areas) or len(layer.lines))
 
 
 class _Torus:
-    """Wraps marks round the cell, cuts them at its edges, and remembers which edges lay on the seam."""
+    """Wraps marks round the cell, cuts them at its edges, and remembers what of them lay on the seam."""
 
     def __init__(self, cell: Cell, lattice: Lattice, phase: NDArray[np.int64]) -> None:
         self.cell, self.lattice, self.phase = cell, lattice, phase
         self.window = Window(0, 0, cell.columns, cell.rows)
         self.allowed: list[NDArray[np.int64]] = []
         self.borders: list[tuple[str, int, int, int]] = []
+        self.ends: dict[str, Places] = {}
 
     def areas(self, marks: Geometries, name: int | NDArray[np.intp]) -> _Marks:
         pieces, names = polygons_of(
@@ -199,29 +202,59 @@ class _Torus:
         self.allowed.append(seams.on_seam(pieces, self.window))
         return _Marks(*clip_areas(pieces, names, self.window))
 
-    def lines(self, marks: Geometries, name: int) -> _Marks:
+    def lines(self, marks: Geometries, name: int, ink: str) -> _Marks:
         pieces = to_step_grid(marks)
         pieces = pieces[shapely.length(pieces) > 0] if len(pieces) else pieces
         pieces = translate(pieces, np.repeat(self.phase, len(pieces), axis=0))
         pieces, names = wrap(pieces, np.full(len(pieces), name, np.intp), self.lattice, self.window)
+        self.ends.setdefault(ink, set()).update(own_ends(pieces, self.cell))
         return _Marks(*clip_lines(pieces, names, self.window))
+
+    def cut_lines(self, lines: _Marks, cutters: Geometries, ink: str) -> _Marks:
+        """Cut lines by cutters that do not overlap; one that is cut off up to the seam ends there."""
+        cut = _cut(lines, cutters, lines_of)
+        ended = lone_ends(cut.geometries, self.cell) - lone_ends(lines.geometries, self.cell)
+        if ended:
+            torn = [
+                row
+                for row in self._torn(seams.mismatch(cutters, self.cell))
+                if row[2] - row[1] > seams.MEND_STEPS
+            ]
+            self.ends[ink] |= {place for place in ended if not _lies_in(place, torn)}
+        return cut
+
+    def record_ends(self, ink: str, lines: Geometries) -> None:
+        """Note where lines end on the seam on purpose, as borders of no length."""
+        meant = self.ends.get(ink, set()) & lone_ends(lines, self.cell)
+        self.borders += [(ink, 0, y, y) if x == 0 else (ink, 1, x, x) for x, y in sorted(meant)]
 
     def seam_holds(self, ink: str, areas: Geometries) -> bool:
         """Whether opposite edges agree, but for borders that were drawn along the seam on purpose."""
         if not shapely.is_valid(areas).all():
             return False
         breaks = seams.mismatch(areas, self.cell)
+        if self._torn(breaks):
+            return False
+        self.borders += [(ink, axis, low, high) for axis, low, high in breaks.tolist()]
+        return True
+
+    def _torn(self, breaks: NDArray[np.int64]) -> list[tuple[int, int, int]]:
+        """Return what of breaks, rows of (axis, from, to), no mark's own border along the seam explains."""
         if not len(breaks):
-            return True
+            return []
         allowed = np.concatenate(self.allowed)
+        found = []
         for axis in (0, 1):
             mine = seams.joined(breaks[breaks[:, 0] == axis, 1:])
             legal = seams.joined(allowed[allowed[:, 0] == axis, 1:])
             together = seams.joined(np.vstack([mine, legal]))
-            if not np.array_equal(together, legal):
-                return False
-        self.borders += [(ink, axis, low, high) for axis, low, high in breaks.tolist()]
-        return True
+            found += [(axis, low, high) for low, high in seams.symmetric_difference(together, legal).tolist()]
+        return found
+
+
+def _lies_in(place: tuple[int, int], stretches: Sequence[tuple[int, int, int]]) -> bool:
+    """Whether a place on the seam lies within one of its stretches, given as (axis, from, to)."""
+    return any(place[axis] == 0 and low < place[1 - axis] < high for axis, low, high in stretches)
 
 
 def _uncut(sheet: Sheet, torus: _Torus, cutters: Geometries) -> tuple[Geometries, Geometries]:

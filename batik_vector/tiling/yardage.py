@@ -9,9 +9,9 @@ A page is never held as a whole: each time it is drawn its marks are placed anew
 from __future__ import annotations
 
 import enum
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Annotated, Protocol, TypeAlias
+from typing import Annotated, Any, Protocol, TypeAlias
 
 import numpy as np
 import shapely
@@ -32,7 +32,7 @@ from batik_vector.units import STEPS_PER_MM, format_mm, to_steps
 MAX_WIDTH_MM = 20_000.0
 MAX_LENGTH_MM = 200_000.0
 MAX_VERTICES = 400_000_000
-"""Vertices past which a cloth is refused: an SVG of them has some 6 GB."""
+"""Vertices that a cloth may be allowed at most: an SVG of them has some 6 GB."""
 
 Move: TypeAlias = Annotated[Length, Between(-MAX_WIDTH_MM, MAX_WIDTH_MM)]
 Box = tuple[float, float, float, float]
@@ -79,6 +79,10 @@ class YardageSpec:
     ] = False
     align: Annotated[Align, Says("where the repeat starts: in a corner or in the centre")] = Align.CORNER
     phase: Annotated[tuple[Move, Move], Says("move of the repeat from there")] = (0.0, 0.0)
+
+    limit: Annotated[int, Between(1000, MAX_VERTICES), Says("vertices past which the cloth is refused")] = (
+        50_000_000
+    )
 
     def __post_init__(self) -> None:
         check(self)
@@ -160,6 +164,7 @@ class Yardage:
     drawn: tuple[_Drawn, ...]
     joining_corners: Geometries = field(default_factory=lambda: np.empty(0, dtype=object))
     guides: Guides | None = None
+    facts: Mapping[str, Any] = field(default_factory=dict)
     tell: Callable[[str], None] = field(default=lambda words: None)
 
     @property
@@ -203,7 +208,6 @@ def compile_yardage(
     *,
     frame: Frame | None = None,
     inks: Sequence[str] = (),
-    limit: int = MAX_VERTICES,
     piece: int = PIECE,
     progress: Callable[[str], None] | None = None,
 ) -> Yardage:
@@ -214,20 +218,19 @@ def compile_yardage(
         spec: the cloth.
         frame: borders; they are drawn beside the field, which fills the window within them.
         inks: the names of all inks in painting order; where left out, the tile's, then those of borders only.
-        limit: vertices past which the cloth is refused.
         piece: how many points are drawn at once, about.
         progress: called with a word or two as each band is drawn.
 
     Raises:
-        TooLargeError: with the estimate, where the cloth would have more vertices than ``limit``.
+        TooLargeError: with the estimate, where the cloth would have more vertices than its limit.
         GeometryError: where borders leave no field, or another bleed is asked of an artwork that has one.
     """
     if artwork.bleed:
         raise GeometryError(f"the tile has a bleed of {format_mm(artwork.bleed)} mm: expected none")
     columns, rows = spec.size(artwork.cell)
     count = vertices_of(artwork, spec, frame)
-    if count > limit:
-        raise TooLargeError(_too_large(count, limit, rows))
+    if count > spec.limit:
+        raise TooLargeError(_too_large(count, spec.limit, rows))
     origin = _origin(artwork.cell, spec, frame, columns, rows)
     filling = replace(_filling(artwork.cell, spec, frame, origin), piece=piece)
     drawn = tuple(_drawn(artwork, frame, origin, inks))
@@ -293,7 +296,8 @@ def _too_large(count: int, limit: int, rows: int) -> str:
     fits = rows / STEPS_PER_MM * limit / count
     return (
         f"the cloth would have about {count:,} vertices (an SVG of some {count * 16 / 1e9:.1f} GB), past the "
-        f"limit of {limit:,}: expected a length of {format_mm(int(fits))} mm at most, or more tolerance"
+        f"limit of {limit:,}: expected a length of {format_mm(int(fits))} mm at most, more tolerance, or a "
+        "higher limit"
     )
 
 

@@ -363,7 +363,7 @@ def test_a_cloth_too_large_is_refused_with_its_estimate() -> None:
     with pytest.raises(
         TooLargeError, match=r"about [\d,]+ vertices .*past the limit of 1,000: .* mm at most"
     ):
-        compile_yardage(DISCS, spec, limit=1000)
+        compile_yardage(DISCS, replace(spec, limit=1000))
 
 
 def test_what_makes_no_cloth_is_refused() -> None:

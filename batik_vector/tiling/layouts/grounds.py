@@ -80,6 +80,8 @@ class Toss(Layout):
         for name, (low, high) in (("turn", self.turn), ("size", self.size)):
             if low > high:
                 raise GeometryError(f"{name} = [{low:g}, {high:g}]: expected the lesser number first")
+        if self.turns and self.turn != (0.0, 360.0):
+            raise GeometryError("turn and turns are both given: expected one of them")
 
 
 @dataclass(frozen=True, kw_only=True)
