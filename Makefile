@@ -35,8 +35,9 @@ format: $(READY) ## mend the style
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
 
-bench: $(READY) ## a million vertices to SVG, PDF and DXF: seconds, bytes, memory
+bench: $(READY) ## a million vertices, and metres of cloth, to SVG, PDF and DXF: seconds, bytes, memory
 	$(PY) benchmarks/million.py
+	$(PY) benchmarks/cloth.py
 
 golden: $(READY) ## draw the samples' pictures and the gallery again
 	$(PY) tools/golden.py
