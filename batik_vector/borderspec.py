@@ -10,7 +10,6 @@ from typing import Annotated, TypeAlias
 from batik_vector.errors import GeometryError, blame
 from batik_vector.fields import Between, Length, Says, Text, check, choice
 from batik_vector.placement import Placement
-from batik_vector.tiling.borders import turned_corners
 from batik_vector.tiling.friezes import FRIEZE_NAMES, frieze
 from batik_vector.units import to_steps
 
@@ -134,7 +133,9 @@ class BorderSpec:
             raise GeometryError("sides = []: expected one or more of bottom, right, top, left")
         twice = [side for side in ClothSide if self.sides.count(side) > 1]
         if twice:
-            raise GeometryError(f"sides = {_listed(self.sides)}: {twice[0]} is named twice, expected each once")
+            raise GeometryError(
+                f"sides = {_listed(self.sides)}: {twice[0]} is named twice, expected each once"
+            )
         if not (self.place or self.rails or self.corner_place):
             raise GeometryError("the border is empty: expected placements in place, or rails")
         self._refuse_for_corner()
@@ -154,8 +155,9 @@ class BorderSpec:
                 raise GeometryError(f'given {given}: expected none, or corner = "motif"')
         if self.radius is not None and self.corner != Corner.BEND:
             raise GeometryError(f'radius = {self.radius:g} mm {given}: expected none, or corner = "bend"')
-        turns = self.corner != Corner.MOTIF and turned_corners(self.sides)
-        if self.facing != Facing.TURN and turns:
+        level = {ClothSide.BOTTOM, ClothSide.TOP}
+        turns = bool(level & set(self.sides)) and bool(set(self.sides) - level)
+        if self.facing != Facing.TURN and turns and self.corner != Corner.MOTIF:
             raise GeometryError(
                 f'facing = "{self.facing}" {given}, which sets how its sides stand: expected none, '
                 'or corner = "motif"'

@@ -222,12 +222,28 @@ def test_what_does_not_fit_is_refused_in_words(
 def test_square_corners_are_refused_within_round_ones() -> None:
     bent = border(corner="bend", radius=30)
     with pytest.raises(
-        RecipeError, match=r'border\[1\]: .* 30 mm radius: expected corner = "bend" with .* 20 mm'
+        RecipeError,
+        match=r'over the lower left corner, .* 30 mm radius: expected corner = "bend" with .* 20 mm',
     ):
         compile_borders([bent, border(size=(20, 10))], recipe(), CLOTH)
+    with pytest.raises(RecipeError, match=r"30 mm radius: expected a radius of at least 20 mm$"):
+        compile_borders([bent, border(size=(20, 10), corner="bend", radius=5)], recipe(), CLOTH)
+    with pytest.raises(RecipeError, match=r"expected sides to name both bottom and left, and corner = "):
+        compile_borders([bent, border(size=(20, 10), sides=("bottom",))], recipe(), CLOTH)
     inner = border(Placement(motif="m", scale=0.5, at=(0, 5)), size=(20, 10), corner="bend")
     layer = sound(compile_borders([bent, inner], recipe(), CLOTH))
     assert all(len(area.interiors) == 1 for area in layer.areas)
+
+
+@pytest.mark.parametrize("corner", Corner)
+def test_far_too_many_periods_are_refused_before_they_are_laid(
+    monkeypatch: pytest.MonkeyPatch, corner: Corner
+) -> None:
+    monkeypatch.setattr("batik_vector.tiling.borders.spans", None)
+    tiny = border(Placement(motif="m", scale=0.001, at=(0.05, 0.05)), size=(0.1, 0.1), corner=corner)
+    words = r"^border\[0\]: about 800,000 periods of 0.1 mm make about [\d,]+ vertices, past the limit of"
+    with pytest.raises(RecipeError, match=words):
+        compile_borders([tiny], replace(recipe(), limit=700_000), (0, 0, 20_000, 20_000))
 
 
 def test_faults_name_their_placement() -> None:

@@ -273,6 +273,7 @@ def test_trimmed_bands_keep_their_period() -> None:
             93_000,
             "straight",
         ),
+        ("the bottom side, 93 mm, holds 2.33 .* stretched by 16.3%", 93_000, "mitre"),
         ("bottom side is 59 mm long, its corners alone take 60 mm", 59_000, "mitre"),
         ("bottom side is 89 mm long, its corners alone take 90 mm", 89_000, "bend"),
         ("the way round, .* expected a period of", 121_000, "bend"),
@@ -287,6 +288,13 @@ def test_what_does_not_fit_is_refused_with_what_would(words: str, width: int, ho
     }
     with pytest.raises(GeometryError, match=words):
         lay[how]()
+
+
+def test_a_period_far_too_long_is_told_with_the_figures_of_one_side() -> None:
+    sides = sides_of(window(400_000, 300_000), ALL, "mitre")
+    words = "the right side, 300 mm, holds 0.33 periods of 900 mm: they would be squeezed by 66.7%"
+    with pytest.raises(GeometryError, match=words):
+        mitred_round(sides, range(4), measures(period=900_000, depth=20_000))
 
 
 def test_corner_squares_turn_or_mirror() -> None:

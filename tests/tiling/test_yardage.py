@@ -230,6 +230,36 @@ def test_whole_edges_cut_no_mark_and_leave_out_whole_motifs() -> None:
     assert counts == {"flower.core": 4, "flower.petal": 24, "seed.dot": 9}
 
 
+@pytest.mark.parametrize(
+    ("size", "ring", "petals"),
+    [
+        # A core too far from its petals for their own size; copies closer to each other than to their cores;
+        # and petals far apart.
+        (32, 10, 8),
+        (28, 10, 8),
+        (64, 16, 5),
+    ],
+)
+def test_whole_edges_keep_petals_and_core_together(size: int, ring: float, petals: int) -> None:
+    angles = np.arange(petals) * 2 * np.pi / petals
+    discs = [disc(9 + ring * np.cos(a), 11 + ring * np.sin(a), 3) for a in angles]
+    flower = tile(disc(9, 11, 4), *discs, size=(size * 1000,) * 2, names=("fl.core", *["fl.petal"] * petals))
+    layer = drawn(flower, 150, 150, edge="whole")
+    counts = [layer.area_names.count(name) for name in ("fl.core", "fl.petal")]
+    assert counts[0] > 0
+    assert counts[1] == petals * counts[0]
+
+
+def test_whole_edges_keep_a_core_without_counts_by_its_distance() -> None:
+    angles = np.arange(8) * np.pi / 4
+    petals = [disc(16 + 10 * np.cos(a), 16 + 10 * np.sin(a), 3) for a in angles]
+    # Three cores tell nothing of eight petals.
+    cores = [disc(16, 16, 4), disc(16, 20.6, 0.4), disc(16, 11.4, 0.4)]
+    names = ("fl.petal",) * 8 + ("fl.core",) * 3
+    layer = drawn(tile(*petals, *cores, size=(40_000, 40_000), names=names), 150, 90, edge="whole")
+    assert layer.area_names.count("fl.petal") * 3 == layer.area_names.count("fl.core") * 8
+
+
 def test_whole_edges_still_cut_what_is_endless() -> None:
     layer = drawn(BARS, 100, 55, edge="whole")
     assert shapely.bounds(layer.areas).tolist() == [[0, 10, 100, 20], [0, 50, 100, 55]]
@@ -350,6 +380,16 @@ def test_a_page_grows_to_hold_its_bar() -> None:
     page = cloth(DISCS, 30, 50, marks=True)
     (guides,) = page.lines(1)
     assert guides.points[:, 0].max() < 30_000 + page.margins.right
+
+
+@pytest.mark.parametrize("width", [30, 96, 104, 108, 150])
+def test_the_bar_crosses_no_other_mark(width: float) -> None:
+    page = cloth(DISCS, width, 50, marks=True)
+    (guides,) = page.lines(1)
+    lines = np.asarray(shapely.linestrings(guides.points.reshape(-1, 2, 2).astype(float)), dtype=object)
+    bar = np.array(guides.names) == "marks.bar"
+    assert shapely.distance(shapely.union_all(lines[bar]), shapely.union_all(lines[~bar])) >= 1_000
+    assert guides.points[:, 1].min() > -page.margins.bottom
 
 
 def test_marks_show_on_dark_cloth_and_on_light() -> None:
