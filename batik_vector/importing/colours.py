@@ -27,7 +27,7 @@ def colour_of(text: str, current: str = "black") -> tuple[str, float] | None:
     parts = _spaced(text) if colour is None else tuple(colour)
     if parts is None:
         return None
-    levels = (int(255 * max(0.0, min(1.0, part)) + 0.5) for part in parts[:3])
+    levels = (int(round(255 * max(0.0, min(1.0, part)), 6) + 0.5) for part in parts[:3])
     return "#{:02x}{:02x}{:02x}".format(*levels), float(max(0.0, min(1.0, parts[3])))
 
 

@@ -30,8 +30,8 @@ SAMPLES = 33
 """Places at which a curve is looked at for crossings; two between neighbouring places are overlooked,
 where it only dips over the edge and back."""
 MAX_PIECES = 10_000
-MAX_POINTS = 20_000_000
-"""Points of all polylines of a drawing together; they take some 50 bytes each while curves are divided."""
+MAX_CURVED = 5_000_000
+"""Points that all curves of a drawing may come to; up to polygons they take some 130 bytes each."""
 FINER = 3
 """By how much curves that meet an edge of the page are divided more finely, since a chord hides a kink at
 the seam that is no sharper than the chord's own turn."""
@@ -64,7 +64,7 @@ def flattened(outline: Outline, width: float, height: float, tolerance: float) -
         tolerance: in mm.
 
     Raises:
-        TooLargeError: where the polylines would have more than ``MAX_POINTS`` points.
+        TooLargeError: where the curves would come to more than ``MAX_CURVED`` points.
     """
     points = snapped(outline.points, width, height)
     end = np.flatnonzero(outline.kinds == CURVE)
@@ -115,9 +115,9 @@ def _divided(
     )
     # A hair less than the bound, so that twins whose floats differ in the last bit get the same count.
     pieces = np.clip(np.ceil(need[owner] * (stop - start) - 1e-6), 1, MAX_PIECES).astype(np.intp)
-    if (total := int(pieces.sum())) > MAX_POINTS:
+    if (total := int(pieces.sum())) > MAX_CURVED:
         raise TooLargeError(
-            f"its curves come to {total:,} points, expected at most {MAX_POINTS:,}: "
+            f"its curves come to {total:,} points, expected at most {MAX_CURVED:,}: "
             "draw them smaller, or read them with a greater tolerance"
         )
     span = np.repeat(np.arange(len(owner)), pieces)

@@ -26,6 +26,8 @@ Key = tuple[str, str, float]
 """What makes an ink: a layer's name, a colour, and the breadth of its lines, 0 for areas."""
 
 CLOTH = ("%cloth", "cloth")
+MAX_INKS = 300
+"""Inks past which a drawing is refused: cloth is dyed in some ten."""
 PAGE_SLACK_MM = 1e-3
 """How far a ground may fall short of its page and still be the cloth."""
 _PEN = re.compile(r"^\d+ +(?=\S)")
@@ -109,7 +111,7 @@ def layers_of(
     """Return the layers of inks in painting order, and the colour of the cloth.
 
     Raises:
-        DrawingError: where nothing is drawn on the page.
+        DrawingError: where nothing is drawn on the page, or in more than ``MAX_INKS`` inks.
     """
     marks, cloth = _without_cloth(document, marks, cell, bleed)
     if not len(marks):
@@ -118,8 +120,41 @@ def layers_of(
     if not len(marks):
         raise document.fault("is no tile: all that it draws lies outside its page", document.root)
     keys = _keys(marks, ours)
+    inks = len({*keys[0], *keys[1]})
+    if inks > MAX_INKS:
+        raise document.fault(
+            f"a drawing of {inks:,} inks (colours, and breadths of lines) is a tracing or a shaded picture, "
+            f"expected at most {MAX_INKS}: bring it down to the few colours it is to be dyed in"
+        )
     names = _named_by_layer(keys) if ours else _named_by_colour(marks, keys)
+    if not ours:
+        _stroke_notes(document, marks, cell, bleed, [names[key] for key in keys[1]])
     return tuple(_layers(marks, keys, names, ours)), cloth
+
+
+def _stroke_notes(document: Document, marks: Marks, cell: Cell, bleed: float, inks: Sequence[str]) -> None:
+    """Tell of each ink that strokes, and of strokes whose body passes the page's edge without their line."""
+    if not inks:
+        return
+    half = np.array([shape.width for shape in marks.shapes])[marks.line_shape] / 2
+    bounds = shapely.bounds(marks.lines).reshape(-1, 4)
+    over = np.zeros(len(bounds), bool)
+    for axis, side in ((0, cell.width), (1, cell.height)):
+        low, high = bounds[:, axis], bounds[:, axis + 2]
+        for edge in (-bleed, side + bleed):
+            apart = np.maximum(low - edge, edge - high)
+            # A line that ends on the edge is cut there; one that lies on it has half its body beyond.
+            over |= ((apart > 0) & (apart < half)) | ((low == edge) & (high == edge))
+    of = np.array(inks, dtype=object)
+    for name in dict.fromkeys(inks):
+        document.note(f'the strokes of ink "{name}" are measured by their centre lines, not by their bodies')
+        count = int(over[of == name].sum())
+        if count:
+            document.note(
+                f'ink "{name}": {count:,} {"stroke runs" if count == 1 else "strokes run"} within half '
+                "its breadth of the page's edge; whether the part beyond comes back at the opposite edge "
+                "is not measured: expand strokes to outlines to have it measured"
+            )
 
 
 def _without_cloth(document: Document, marks: Marks, cell: Cell, bleed: float) -> tuple[Marks, str]:
@@ -200,6 +235,14 @@ def _named_by_colour(marks: Marks, keys: tuple[list[Key], list[Key]]) -> dict[Ke
     return names
 
 
+def _grouped(inks: Sequence[str]) -> dict[str, Indices]:
+    """Return for each name where it stands, ascending."""
+    number = {name: i for i, name in enumerate(dict.fromkeys(inks))}
+    which = np.array([number[name] for name in inks], np.intp)
+    cuts = np.cumsum(np.bincount(which, minlength=len(number)))[:-1]
+    return dict(zip(number, np.split(np.argsort(which, kind="stable"), cuts), strict=True)) if number else {}
+
+
 def _layers(
     marks: Marks, keys: tuple[list[Key], list[Key]], names: dict[Key, str], ours: bool
 ) -> Iterator[Layer]:
@@ -216,15 +259,16 @@ def _layers(
             colours.setdefault(ink, key[1])
             if key[2]:
                 widths.setdefault(ink, key[2])
-    areas_of, lines_of = np.array(area_ink, dtype=object), np.array(line_ink, dtype=object)
+    areas_of, lines_of = _grouped(area_ink), _grouped(line_ink)
+    none = np.empty(0, np.intp)
     # Shapes of a stranger's ink may overlap as they like.
     overlap = Overlap.WELD if ours else Overlap.OVERLAY
     for name in sorted(order, key=lambda each: order[each]):
-        some, others = areas_of == name, lines_of == name
+        mine, others = areas_of.get(name, none), lines_of.get(name, none)
         yield Layer(
             Ink(name, colours[name], widths.get(name, 1.0), overlap),
-            marks.areas[some],
+            marks.areas[mine],
             marks.lines[others],
-            tuple(marks.shapes[i].name for i in marks.area_shape[some].tolist()),
+            tuple(marks.shapes[i].name for i in marks.area_shape[mine].tolist()),
             tuple(marks.shapes[i].name for i in marks.line_shape[others].tolist()),
         )

@@ -153,16 +153,13 @@ def _steps(selectors: str) -> int:
     """Return how many combinators the longest of several selectors may have, brackets counted in."""
     import tinycss2
 
-    most, at = 0, 0
-    for token in [*tinycss2.parse_component_value_list(selectors.strip(), skip_comments=True), None]:
-        if token is None or token == ",":
-            most, at = max(most, at), 0
-        elif token.type in ("function", "() block"):
-            inside = token.arguments if token.type == "function" else token.content
-            at += len(_STEP.findall(tinycss2.serialize(inside)))
-        else:
-            at += len(_STEP.findall(token.serialize()))
-    return most
+    pieces = [""]
+    for token in tinycss2.parse_component_value_list(selectors, skip_comments=True):
+        if token == ",":
+            pieces.append("")
+        elif token.type != "[] block":
+            pieces[-1] += token.serialize()
+    return max(len(_STEP.findall(piece.strip())) for piece in pieces)
 
 
 class _Trials:

@@ -22,21 +22,25 @@ from batik_vector.importing.document import (
     local,
     reference,
 )
-from batik_vector.importing.matrix import IDENTITY, Matrix, moved, parse_transform, spread, times
+from batik_vector.importing.matrix import IDENTITY, Matrix, moved, spread, times
+from batik_vector.importing.origins import transform_of
 from batik_vector.importing.outlines import Outline, polyline
 from batik_vector.importing.page import Page, fitted, parse_px, view_box
-from batik_vector.importing.paint import EXPAND, URL, paint_of
+from batik_vector.importing.paint import EXPAND, paint_of, url_of
 from batik_vector.importing.shapes import SHAPES, outline_of
-from batik_vector.importing.styles import INITIAL, Style, Styles, share_of
+from batik_vector.importing.styles import GEOMETRY, INITIAL, MOVES, Style, Styles, share_of
 
 MAX_SHAPES = 1_000_000
 MAX_POINTS = 20_000_000
 """Shapes and points a drawing may have once every ``use`` in it is followed."""
+MAX_WORK = 1_000_000
+"""Elements to which ``use`` may lead, painted or not, long attributes counted as several."""
 MAX_REACH_MM = 1e6
 """How far from the page a shape may reach; further off, products of whole µm leave 64 bits."""
 FRAME_SLACK = 1e-3
 """Parts of a side by which a clip may fall short of what it holds and still cut nothing away."""
 
+_FOLLOWED = "once every use in it is followed"
 _REFUSED = {
     "image": "a picture has no outlines; trace it, or take it out",
     "text": "text hangs on a font; convert it to outlines first",
@@ -87,6 +91,7 @@ class Walker:
         self.shapes: list[Shape] = []
         self._styles = Styles(document)
         self._points = 0
+        self._work = 0
 
     def walk(self) -> list[Shape]:
         """Return the shapes in painting order.
@@ -105,6 +110,8 @@ class Walker:
         return self.shapes
 
     def _visit(self, element: ET.Element, here: _Here, top: bool = False) -> None:
+        if here.used:
+            self._spend(element)
         kind = local(element)
         if kind in _PASSED or not kind:
             return
@@ -115,7 +122,8 @@ class Walker:
             if style["visibility"] == "visible" and (kind != "text" or "".join(element.itertext()).strip()):
                 self.document.refuse(element, _REFUSED[kind])
             return
-        matrix = times(here.matrix, self._transform(element, style))
+        self._refuse_styled_geometry(element, kind, style)
+        matrix = times(here.matrix, self._transform(element, style, here))
         inside = replace(here, matrix=matrix, style=style, depth=here.depth + 1)
         if inside.depth > MAX_DEPTH:
             raise self.document.fault(f"nested deeper than {MAX_DEPTH} elements", element)
@@ -138,12 +146,23 @@ class Walker:
     def _painted(self, element: ET.Element, style: Style) -> bool:
         return style.get("display") != "none" and share_of(style.get("opacity", "1")) > 0
 
-    def _transform(self, element: ET.Element, style: Style) -> Matrix:
-        text = style.get("transform", "")
-        if text and text != (element.get("transform") or "").strip():
-            text = re.sub(r"(?<=[\d.])(px|deg)\b", "", text)
+    def _spend(self, element: ET.Element) -> None:
+        """Count the work that an element makes each time a use leads to it, drawn or not."""
+        self._work += 1 + len(element) + sum(map(len, element.attrib.values())) // 100
+        if self._work > MAX_WORK:
+            raise self.document.fault(f"more than {MAX_WORK:,} elements, {_FOLLOWED}", element)
+
+    def _refuse_styled_geometry(self, element: ET.Element, kind: str, style: Style) -> None:
+        for name in GEOMETRY.get(kind, ()):
+            if style.get(name, element.get(name)) != element.get(name):
+                self.document.refuse(element, f"takes its {name} from a style; write it as an attribute")
+        for name in MOVES:
+            if style.get(name, "none") not in ("none", "normal"):
+                self.document.refuse(element, f"is moved by the style {name}; write it as a transform")
+
+    def _transform(self, element: ET.Element, style: Style, here: _Here) -> Matrix:
         try:
-            return parse_transform(text)
+            return transform_of(style, here.size)
         except ValueError as error:
             self.document.refuse(element, str(error))
             return IDENTITY
@@ -192,7 +211,11 @@ class Walker:
         if local(found) == "symbol":
             style = self._styles.of(found, here.style)
             if self._painted(found, style):
-                inside = replace(here, style=style, matrix=times(here.matrix, self._transform(found, style)))
+                inside = replace(
+                    here, style=style, matrix=times(here.matrix, self._transform(found, style, here))
+                )
+                self._refuse_styled_geometry(found, "symbol", style)
+                self._spend(found)
                 self._refused_effects(found, style, inside)
                 self._viewport(found, inside, (element.get("width", ""), element.get("height", "")))
         else:
@@ -228,7 +251,7 @@ class Walker:
         self._points += len(outline.points)
         if len(self.shapes) >= MAX_SHAPES or self._points > MAX_POINTS:
             words = f"more than {MAX_SHAPES:,} shapes or {MAX_POINTS:,} points"
-            raise self.document.fault(f"{words}, once every use in it is followed", element)
+            raise self.document.fault(f"{words}, {_FOLLOWED}", element)
 
     def _breadth(self, style: Style, width: float, here: _Here) -> float:
         if style.get("vector-effect") == "non-scaling-stroke":
@@ -248,11 +271,11 @@ class Walker:
         for name in ("mask", "filter"):
             if style.get(name, "none") not in ("none", ""):
                 self.document.refuse(element, f"has a {name}; {EXPAND}")
-        clip = URL.fullmatch(style.get("clip-path", "none"))
+        clip = url_of(style.get("clip-path", "none"))
         if clip is None:
             if style.get("clip-path", "none") not in ("none", ""):
                 self.document.refuse(element, f"is clipped; {EXPAND}")
-        elif not self._clips_nothing(clip[1], here):
+        elif not self._clips_nothing(clip[0], here):
             self.document.refuse(element, f"is clipped; {EXPAND}")
 
     def _clips_nothing(self, target: str, here: _Here) -> bool:
@@ -263,8 +286,9 @@ class Walker:
         inner = [child for child in children(clip) if local(child) not in _PASSED]
         if len(inner) != 1 or local(inner[0]) not in ("rect", "path", "polygon"):
             return False
-        matrix = times(here.matrix, self._transform(clip, clip.attrib))
-        matrix = times(matrix, self._transform(inner[0], inner[0].attrib))
+        self._spend(inner[0])
+        matrix = times(here.matrix, self._transform(clip, clip.attrib, here))
+        matrix = times(matrix, self._transform(inner[0], inner[0].attrib, here))
         try:
             return _covers(outline_of(inner[0], here.size).moved(matrix), self.page.width, self.page.height)
         except ValueError:
