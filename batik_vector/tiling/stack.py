@@ -333,7 +333,9 @@ def _merge(marks: _Marks, overlap: Overlap) -> _Marks:
     if len(areas) < 2:
         return marks
     if overlap == Overlap.OVERLAY:
-        _, first = np.unique(shapely.to_wkb(shapely.normalize(areas)), return_index=True)
+        # A vertex on a straight edge, as cutting leaves, makes no other mark.
+        bare = shapely.normalize(shapely.simplify(areas, 0))
+        _, first = np.unique(shapely.to_wkb(bare), return_index=True)
         first.sort()
         return _Marks(areas[first], marks.names[first])
     joined, first = welded(areas)
