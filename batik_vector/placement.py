@@ -92,7 +92,7 @@ class Placement:
 
     @property
     def spread(self) -> Spread | None:
-        """What its symmetry multiplies; marks of a toss stay whole, whatever the repeat does with others."""
+        """What its symmetry multiplies; tossed marks stay whole, whatever the repeat does with others."""
         return self.region or (Spread.FREE if isinstance(self.layout, Toss) else None)
 
     @property

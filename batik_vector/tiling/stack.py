@@ -129,7 +129,10 @@ def _refuse_too_many(sheets: Sequence[Sheet], cell: Cell, lattice: Lattice) -> N
     (ax, ay), (bx, by) = lattice
     per_mm2 = STEPS_PER_MM**2 / (ax * by - ay * bx)
     total = 0.0
-    for marks in (part for sheet in sheets for part in (sheet.areas, sheet.lines) if len(part)):
+    for part in (part for sheet in sheets for part in (sheet.areas, sheet.lines)):
+        marks = part[~shapely.is_empty(part)]
+        if not len(marks):
+            continue
         low_x, low_y, high_x, high_y = shapely.bounds(marks).T
         repeats = (high_x - low_x + cell.width) * (high_y - low_y + cell.height) * per_mm2
         if repeats.max() > MAX_REPEATS:

@@ -96,6 +96,9 @@ def wrap(
         window: the rectangle to fill, in grid steps.
         reach: in grid steps; half the breadth of a line, where its body counts.
     """
+    # What is empty lies nowhere.
+    there = ~shapely.is_empty(marks)
+    marks, names = marks[there], names[there]
     if not len(marks):
         return marks, names
     (ax, ay), (bx, by) = lattice
