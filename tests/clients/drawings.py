@@ -1,4 +1,4 @@
-"""The drawings that programs are shown: samples of every kind, and two that are told from their mirror images."""
+"""What programs are shown: samples of every kind, and two drawings that differ from their mirror images."""
 
 from __future__ import annotations
 
