@@ -17,6 +17,7 @@ def picture(path: Path) -> bytes:
     return path.with_suffix(".png").read_bytes()
 
 
+@pytest.mark.clients
 @pytest.mark.parametrize("path", golden.samples(), ids=lambda path: path.stem)
 def test_the_picture_is_up_to_date(path: Path) -> None:
     assert not golden.stale(golden.sample(path)), MEND
@@ -29,6 +30,7 @@ def test_the_picture_is_small(path: Path) -> None:
     assert Image.open(io.BytesIO(data)).width <= golden.WIDTH
 
 
+@pytest.mark.clients
 def test_the_gallery_is_up_to_date() -> None:
     assert not golden.gallery_is_stale([golden.sample(path) for path in golden.samples()]), MEND
 

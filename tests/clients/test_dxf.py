@@ -56,6 +56,7 @@ def test_a_mirrored_file_is_told(lopsided: Artwork, tmp_path: Path) -> None:
     assert stray(load(programs.poppler(printed, scale)), known) > 0.1
 
 
+@pytest.mark.clients
 @pytest.mark.parametrize("version", DxfVersion)
 def test_ezdxf_finds_nothing_to_mend(drawing: Artwork, tmp_path: Path, version: DxfVersion) -> None:
     audit = readfile(written(drawing, tmp_path, version)).audit()

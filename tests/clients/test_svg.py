@@ -85,6 +85,7 @@ def agree_in_a_browser(drawing: Artwork, folder: Path, options: SvgOptions) -> N
     assert shade_apart(picture, known) < SAME_SHADE
 
 
+@pytest.mark.clients
 def test_the_preview_is_the_svg(drawing: Artwork) -> None:
     scale = per_mm(drawing) / 2
     picture = load(render(drawing, "png", PngOptions(dpi=scale * 25.4)))
