@@ -140,9 +140,11 @@ def _body(
     for figure in figures:
         if figure.element.treatment != Treatment.CUT:
             shapes += _shapes(figure, scale, _pen(figure, placement, inks) / 2)
-    if not shapes:
+    body: shapely.Geometry = shapely.union_all(np.concatenate(shapes)) if shapes else shapely.Polygon()
+    # What is drawn may have no body either: an open curve that is filled, say.
+    if shapely.is_empty(body):
         raise GeometryError("the motif draws nothing that could be tossed")
-    return shapely.union_all(np.concatenate(shapes))
+    return body
 
 
 def _shapes(figure: Figure, scale: float, half: float) -> list[Geometries]:

@@ -86,7 +86,7 @@ layouts: st.SearchStrategy[Layout] = st.one_of(
     ),
     st.builds(
         RosetteLayout,
-        group=st.sampled_from(["C1", "C2", "C5", "D1", "D3", "D4"]),
+        group=st.sampled_from(["C1", "C2", "C3", "D1", "D2"]),
         turn=st.floats(-180, 180),
         axis=st.floats(0, 90),
     ),
