@@ -26,7 +26,7 @@ from tests.certificate.tiles import AREAS, LINES, OVERLAY, PEN, WAX, added, mark
 from tests.recipes import REPEATS, recipes
 from tests.tiling.test_seamless import compiled, many
 
-EXAMPLES = int(os.environ.get("BATIK_EXAMPLES", "3"))
+EXAMPLES = int(os.environ.get("BATIK_EXAMPLES", "2"))
 """Random recipes of each repeat; with 40 of them more than a thousand in all."""
 
 SAMPLES = Path(__file__).resolve().parents[2] / "samples"
