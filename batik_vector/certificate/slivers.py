@@ -84,7 +84,9 @@ def slivers(ink: InkDrawing, field: Elsewhere, limits: Limits) -> list[Sliver]:
         for each, apart in zip(everything, away, strict=True):
             if apart <= near and not any(_alike(each, other, frame) for other in own):
                 found.append(each)
-    return found
+    # The joined areas and the single ones show a sliver at several places that are one on the page.
+    places = [(each.sort, each.width, each.high - each.low, *each.centre(frame)) for each in found]
+    return list(dict(zip(places, found, strict=True)).values())
 
 
 def _from_seam(sliver: Sliver, axis: int, side: int, frame: Frame) -> float:

@@ -47,7 +47,6 @@ _ARC = re.compile(
     )
 )
 _TAKES = {"M": 2, "L": 2, "H": 1, "V": 1, "C": 6, "S": 4, "Q": 4, "T": 2, "A": 7, "Z": 0}
-_SMOOTH_AFTER = {"S": "CS", "T": "QT"}
 
 
 def parse_path(text: str) -> Outline:

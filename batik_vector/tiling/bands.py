@@ -20,7 +20,15 @@ from batik_vector.artwork import Cell, Geometries, Ink, Layer, Overlap
 from batik_vector.geometry.sampling import Array, Indices, Points
 from batik_vector.tiling import seams
 from batik_vector.tiling.stack import Sheet, assemble
-from batik_vector.tiling.torus import Window, clip_areas, clip_lines, polygons_of, to_step_grid, translate
+from batik_vector.tiling.torus import (
+    Window,
+    clip_areas,
+    clip_lines,
+    polygons_of,
+    to_mm,
+    to_step_grid,
+    translate,
+)
 from batik_vector.tiling.weld import welded
 from batik_vector.units import STEPS_PER_MM
 
@@ -233,21 +241,17 @@ def _in_front(marks: Marks) -> Window:
 
 def on_grid(marks: Marks, merges: bool) -> Marks:
     """Return marks, whose vertices are no whole steps, on the grid: valid, and none over another."""
-    areas = to_step_grid(_in_mm(marks.areas))
+    areas = to_step_grid(to_mm(marks.areas))
     areas, which = polygons_of(areas, np.arange(len(areas)))
     if merges:
         areas, first = welded(areas)
         which = which[first]
-    lines = to_step_grid(_in_mm(marks.lines))
+    lines = to_step_grid(to_mm(marks.lines))
     drawn = shapely.length(lines) > 0 if len(lines) else np.empty(0, bool)
     return Marks(
         areas, marks.area_codes[which], marks.open_areas[which],
         lines[drawn], marks.line_codes[drawn], marks.open_lines[drawn],
     )  # fmt: skip
-
-
-def _in_mm(marks: Geometries) -> Geometries:
-    return np.asarray(shapely.transform(marks, lambda xy: xy / STEPS_PER_MM), dtype=object)
 
 
 def solved(

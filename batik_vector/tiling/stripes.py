@@ -13,7 +13,7 @@ from batik_vector.artwork import Geometries
 from batik_vector.errors import GeometryError
 from batik_vector.geometry.sampling import Array, Indices
 from batik_vector.tiling.layouts.grounds import Stripes
-from batik_vector.tiling.torus import Lattice, Steps
+from batik_vector.tiling.torus import Lattice, Steps, to_mm
 from batik_vector.units import STEPS_PER_MM
 
 NODE = 1e-9
@@ -54,7 +54,7 @@ class Courses:
         made = [
             self._copy(shapes, line, link) for line in range(len(self.starts)) for link in range(self.links)
         ]
-        return _in_mm(np.concatenate(made))
+        return to_mm(np.concatenate(made))
 
     def lines(self, shapes: Geometries) -> Geometries:
         """Return all copies of polylines, in mm on the grid, joined end to end along each line.
@@ -73,7 +73,7 @@ class Courses:
             links = [self._copy(shapes, line, link) for link in range(self.links)]
             joined = shapely.get_parts(shapely.line_merge(shapely.multilinestrings(np.concatenate(links))))
             made.append(self._gone_on(joined))
-        return _in_mm(np.concatenate(made))
+        return to_mm(np.concatenate(made))
 
     def _copy(self, shapes: Geometries, line: int, link: int) -> Geometries:
         """Return copies in whole grid steps."""
@@ -156,7 +156,3 @@ def _check_heights(lines: Geometries) -> None:
             f"a line from x = 0 to x = 1 begins at y = {y0:.3g} and ends at y = {y1:.3g}: expected the same "
             "height, for the next link goes on from there"
         )
-
-
-def _in_mm(shapes: Geometries) -> Geometries:
-    return np.asarray(shapely.transform(shapes, lambda xy: xy / STEPS_PER_MM), dtype=object)

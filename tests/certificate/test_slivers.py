@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
+from batik_vector.artwork import Artwork, Cell, Layer
 from batik_vector.certificate import Kind, certify
 from tests.certificate.test_crossings import shrunk
-from tests.certificate.tiles import AREAS, LINES, PEN, WAX, accused, added, tile
+from tests.certificate.tiles import AREAS, LINES, PEN, WAX, accused, added, marks, tile
 
 
 def test_a_slit_that_neither_edge_shows() -> None:
@@ -50,3 +52,13 @@ def test_a_mark_that_reaches_over_the_seam_by_a_hair_is_no_strip() -> None:
 def test_slanting_needles_at_the_seam_are_the_drawings_own() -> None:
     needle = [(-3, 40), (3, 46), (3, 46.01), (-3, 40.01)]
     assert certify(tile(areas=[*AREAS, needle])).faults == ()
+
+
+def test_a_sliver_is_told_once() -> None:
+    bar = np.array([(10.0, 0.01), (30.0, 0.01), (30.0, 20.0), (10.0, 20.0)])
+    rest = np.array([(10.0, 30.0), (30.0, 30.0), (30.0, 60.0), (10.0, 60.0)])
+    torn = Artwork("torn", Cell(60_000, 60_000), (Layer(WAX, marks([bar, rest])),))
+    found = [fault for fault in certify(torn, symmetry=False).faults if fault.kind is Kind.SLIVER]
+    assert len(found) == 1
+    assert found[0].where == pytest.approx((20.0, 0.005))
+    assert certify(torn, symmetry=False).worst.slivers == pytest.approx(20.0)
