@@ -6,6 +6,7 @@ BIN := .venv/bin
 PY := $(BIN)/python
 READY := .venv/.ready
 CLIENTS_READY := .venv/.clients-ready
+PEERS_READY := .venv-bench/.ready
 WORKERS := -n auto --maxprocesses 8
 
 # The tools' own state must not depend on who calls.
@@ -35,9 +36,8 @@ format: $(READY) ## mend the style
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
 
-bench: $(READY) ## a million vertices, and metres of cloth, to SVG, PDF and DXF: seconds, bytes, memory
-	$(PY) benchmarks/million.py
-	$(PY) benchmarks/cloth.py
+bench: $(READY) $(PEERS_READY) ## time everything beside its peers, and write the tables into benchmarks/README.md
+	$(PY) -m benchmarks.run
 
 golden: $(READY) ## draw the samples' pictures and the gallery again
 	$(PY) tools/golden.py
@@ -55,6 +55,10 @@ $(CLIENTS_READY): tools/setup.sh | $(READY)
 	@tools/setup.sh clients
 	@touch $@
 
+$(PEERS_READY): benchmarks/requirements.txt tools/setup.sh
+	@tools/setup.sh peers
+	@touch $@
+
 clean: ## remove what was made here, the environment included
-	rm -rf .venv out dist .hypothesis .mypy_cache .pytest_cache .ruff_cache
+	rm -rf .venv .venv-bench out dist .hypothesis .mypy_cache .pytest_cache .ruff_cache
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +

@@ -19,21 +19,26 @@ rely on its being empty.
 from __future__ import annotations
 
 import enum
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import field, replace
 from fractions import Fraction
+from itertools import pairwise
 from typing import Any, Protocol
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from batik_vector.errors import ExportError
+from batik_vector.errors import ExportError, GeometryError
 from batik_vector.outlines import MM, Outlines, of_polygons, of_polylines
 from batik_vector.units import GRID_MM, STEPS_PER_MM, on_grid
+from batik_vector.values import frozen
 
 Geometries = NDArray[np.object_]
 """A one-dimensional array of shapely geometries."""
+
+PIECE = 1 << 16
+"""Vertices that a page hands over at a time, about: what is made of them stays in the processor's cache."""
 
 
 class Overlap(enum.StrEnum):
@@ -56,7 +61,7 @@ class DropAxis(enum.StrEnum):
     """Each row stands p/q of the width right of the one below (brick)."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Ink:
     """One bath, screen, pen or tool: one layer of the file.
 
@@ -69,7 +74,7 @@ class Ink:
     overlap: Overlap = Overlap.WELD
 
 
-@dataclass(frozen=True)
+@frozen
 class Cell:
     """The rectangle a tile fills, and the lattice on which it repeats.
 
@@ -119,7 +124,7 @@ def _no_geometry() -> Geometries:
     return np.empty(0, dtype=object)
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class Layer:
     """All marks of one ink: filled polygons and centre lines, each with the name of its element.
 
@@ -140,7 +145,7 @@ class Layer:
             object.__setattr__(self, "line_names", ("",) * len(self.lines))
 
 
-@dataclass(frozen=True)
+@frozen
 class Provenance:
     """Where a file comes from: enough to make it again. ``recipe`` is the recipe's TOML text."""
 
@@ -149,7 +154,7 @@ class Provenance:
     version: str = ""
 
 
-@dataclass(frozen=True)
+@frozen
 class Plate:
     """What one layer of a page holds: whether there are any areas and any lines.
 
@@ -162,7 +167,7 @@ class Plate:
     guide: bool = False
 
 
-@dataclass(frozen=True)
+@frozen
 class Margins:
     """How far a page reaches beyond its cell on each side, in grid steps."""
 
@@ -222,7 +227,7 @@ class Page(Protocol):
         """Yield the centre lines of a layer, in pieces."""
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class Artwork:
     """A page of ink layers on cloth, in the normal form that the head of this module states.
 
@@ -264,30 +269,24 @@ class Artwork:
         return tuple(Plate(layer.ink, len(layer.areas) > 0, len(layer.lines) > 0) for layer in self.layers)
 
     def areas(self, number: int) -> Iterator[Outlines]:
-        """Yield the areas of a layer, all in one piece.
+        """Yield the areas of a layer, about ``PIECE`` vertices at a time.
 
         Raises:
             ExportError: where a coordinate is not finite, or an area is no polygon.
         """
         layer = self.layers[number]
-        kind = shapely.GeometryType.POLYGON
-        if len(layer.areas):
-            _check_marks(layer.areas, kind, f'ink "{layer.ink.name}": an area is no polygon, or empty')
-            _check_finite(layer.areas, layer.ink.name)
-            yield replace(of_polygons(layer.areas, MM), names=layer.area_names)
+        _check_marks(layer.areas, shapely.GeometryType.POLYGON, layer.ink.name, "an area is no polygon")
+        yield from _pieces(of_polygons, layer.areas, layer.area_names, layer.ink.name)
 
     def lines(self, number: int) -> Iterator[Outlines]:
-        """Yield the lines of a layer, all in one piece.
+        """Yield the lines of a layer, about ``PIECE`` vertices at a time.
 
         Raises:
             ExportError: where a coordinate is not finite, or a line is no polyline.
         """
         layer = self.layers[number]
-        kind = shapely.GeometryType.LINESTRING
-        if len(layer.lines):
-            _check_marks(layer.lines, kind, f'ink "{layer.ink.name}": a line is no polyline, or empty')
-            _check_finite(layer.lines, layer.ink.name)
-            yield replace(of_polylines(layer.lines, MM), names=layer.line_names)
+        _check_marks(layer.lines, shapely.GeometryType.LINESTRING, layer.ink.name, "a line is no polyline")
+        yield from _pieces(of_polylines, layer.lines, layer.line_names, layer.ink.name)
 
     def _repr_svg_(self) -> str:
         """Show the tile in a notebook."""
@@ -296,14 +295,23 @@ class Artwork:
         return svg_text(self)
 
 
-def _check_marks(marks: Geometries, kind: shapely.GeometryType, words: str) -> None:
+def _check_marks(marks: Geometries, kind: shapely.GeometryType, ink: str, words: str) -> None:
     if (shapely.get_type_id(marks) != kind).any() or shapely.is_empty(marks).any():
-        raise ExportError(words)
+        raise ExportError(f'ink "{ink}": {words}, or empty')
 
 
-def _check_finite(marks: Geometries, ink: str) -> None:
-    if not np.isfinite(shapely.get_coordinates(marks)).all():
-        raise ExportError(f'ink "{ink}": a coordinate is not finite')
+def _pieces(
+    outlines_of: Callable[[Geometries, float], Outlines], marks: Geometries, names: Sequence[str], ink: str
+) -> Iterator[Outlines]:
+    """Yield whole marks as outlines with their names, in pieces."""
+    total = np.cumsum(shapely.get_num_coordinates(marks))
+    cuts = np.flatnonzero(np.diff(total // PIECE)) + 1
+    for first, stop in pairwise(sorted({0, *cuts.tolist(), len(marks)})):
+        try:
+            outlines = outlines_of(marks[first:stop], MM)
+        except GeometryError as error:
+            raise ExportError(f'ink "{ink}": {error}') from None
+        yield replace(outlines, names=names[first:stop])
 
 
 def violations(artwork: Artwork) -> list[str]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import shapely
@@ -25,9 +25,10 @@ from batik_vector.tiling.bands import Band, Marks, solved, together
 from batik_vector.tiling.friezes import orbit
 from batik_vector.tiling.joints import closed
 from batik_vector.tiling.orbits import TRIVIAL, Orbit
-from batik_vector.tiling.stack import Sheet, quad_segs
+from batik_vector.tiling.sheets import Sheet, quad_segs
 from batik_vector.tiling.torus import Window, to_mm
 from batik_vector.units import STEPS_PER_MM, format_mm, to_steps
+from batik_vector.values import frozen
 
 Box = tuple[float, float, float, float]
 """Left, bottom, right and top in mm on cloth."""
@@ -36,7 +37,7 @@ BEND_SHARE = 0.5
 """Share of the tolerance that bending a band round its corners may use; its drawing has the rest."""
 
 
-@dataclass(frozen=True)
+@frozen
 class SideFit:
     """How a border fits a side of the cloth.
 
@@ -50,7 +51,7 @@ class SideFit:
     stretch: float
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class Bordered:
     """Borders on the cloth, and what they leave of it.
 
@@ -68,7 +69,7 @@ class Bordered:
     fits: tuple[SideFit, ...]
 
 
-@dataclass(frozen=True)
+@frozen
 class _Room:
     """What is left of the cloth, in grid steps: a window, and how far each of its corners is rounded."""
 

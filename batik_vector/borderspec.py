@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import enum
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Annotated, TypeAlias
 
 from batik_vector.errors import GeometryError, blame
@@ -12,6 +11,7 @@ from batik_vector.fields import Between, Length, Says, Text, check, choice
 from batik_vector.placement import Placement
 from batik_vector.tiling.friezes import FRIEZE_NAMES, frieze
 from batik_vector.units import to_steps
+from batik_vector.values import frozen
 
 MAX_DEPTH_MM = 20_000.0
 Measure: TypeAlias = Annotated[Length, Between(0.1, MAX_DEPTH_MM)]
@@ -56,7 +56,7 @@ class ClothSide(enum.StrEnum):
     LEFT = "left"
 
 
-@dataclass(frozen=True, kw_only=True)
+@frozen(kw_only=True)
 class RailSpec:
     """A rule that runs along a border, round all its corners."""
 
@@ -74,7 +74,7 @@ def _checked_frieze(text: str) -> str:
     return frieze(text).name
 
 
-@dataclass(frozen=True, kw_only=True)
+@frozen(kw_only=True)
 class BorderSpec:
     """A band along sides of the cloth: one period of a frieze, its rules and its corners.
 

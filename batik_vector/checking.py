@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from pathlib import Path
 from typing import Any
 
@@ -33,13 +33,14 @@ from batik_vector.tiling.fitting import per_cent
 from batik_vector.tiling.groups import group
 from batik_vector.tiling.torus import Window, clip_areas, polygons_of, to_step_grid
 from batik_vector.tiling.weld import welded
+from batik_vector.values import frozen
 
 Tell = Callable[[str], None]
 SNIFFED = 512
 """Bytes at the beginning of a file that show whether it is an SVG under another name."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Wishes:
     """What a call asks of everything that it checks.
 
@@ -62,7 +63,7 @@ MEASURING = 0.002
 """By how much more a tile may be found stretched than its recipe says."""
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class Found:
     """What was measured of one source."""
 

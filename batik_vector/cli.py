@@ -5,13 +5,12 @@ What is heavy is imported where it is used, so that ``--help`` answers at once.
 
 from __future__ import annotations
 
-import json
+import gc
 import os
 import signal
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
 import click
@@ -24,7 +23,8 @@ if TYPE_CHECKING:
 
 FORMATS = ("svg", "pdf", "dxf", "png")
 """As in :data:`batik_vector.export.FORMATS`, which a test compares."""
-STARTERS = Path(__file__).parent / "starters"
+KINDS = ("flower", "four-square", "half-drop", "rosette")
+"""As in :data:`batik_vector.starting.STARTERS`, likewise."""
 SIGPIPE_EXIT, INTERRUPT_EXIT, TERMINATED_EXIT = 141, 130, 143
 
 
@@ -109,8 +109,11 @@ def compile_command(
     A RECIPE is a TOML file, or an SVG, PDF, DXF or PNG that was compiled from one. The files of a recipe
     are written all or not at all, as DIR/NAME.SUFFIX.
     """
+    from pathlib import Path
+
     from batik_vector.jobs import planned, read_jobs, run
 
+    _ready()
     with _report(as_json) as report:
         jobs = planned(read_jobs(recipes, overrides), Path(folder), formats)
         for job, tell in _progress(jobs, as_json):
@@ -170,9 +173,12 @@ def check_command(
     A recipe is compiled and measured. An SVG, whoever drew it, is measured as it is drawn, its page being
     the tile. Nothing is written but what --pointers asks for. Exits with 1 where a tile has faults.
     """
+    from pathlib import Path
+
     from batik_vector.certificate import Limits
     from batik_vector.checking import Wishes, check_source, pointer_files, write_pointers
 
+    _ready()
     with _report(as_json) as report:
         given = {name: value for name, value in limits.items() if value is not None}
         wishes = Wishes(repeat or "", group or "", Limits(**given))
@@ -212,6 +218,8 @@ def _report(as_json: bool) -> Iterator[dict[str, Any]]:
     with _each(report):
         yield report
     if as_json:
+        import json
+
         click.echo(json.dumps(report, indent=2))
     if report["exit"]:
         click.get_current_context().exit(report["exit"])
@@ -251,15 +259,11 @@ def _progress(jobs: Sequence[Job], quiet: bool) -> Iterator[tuple[Job, Callable[
             yield job, tell
 
 
-def _starter_names() -> list[str]:
-    return sorted(path.stem for path in STARTERS.glob("*.toml"))
-
-
 @cli.command("new")
 @click.argument("name", required=False)
 @click.option(
     "--kind",
-    type=click.Choice(_starter_names()),
+    type=click.Choice(KINDS),
     default="flower",
     show_default=True,
     help="What it begins as.",
@@ -268,7 +272,7 @@ def _starter_names() -> list[str]:
 @click.option("--force", is_flag=True, help="Replace a file that is there.")
 def new_command(name: str | None, kind: str, path: str | None, force: bool) -> None:
     """Write a recipe to begin with: short, commented, ready to compile."""
-    from batik_vector.starting import write_starter
+    from batik_vector.starting import STARTERS, write_starter
 
     written = write_starter(STARTERS / f"{kind}.toml", name, path, force)
     click.echo(f"{written} written. Next: batik-vector compile {written}", err=True)
@@ -277,6 +281,8 @@ def new_command(name: str | None, kind: str, path: str | None, force: bool) -> N
 @cli.command("schema")
 def schema_command() -> None:
     """Print the JSON Schema of recipes, for editors."""
+    import json
+
     from batik_vector.schema import schema
 
     click.echo(json.dumps(schema(), indent=2))
@@ -287,10 +293,35 @@ def _terminated(_number: int, _frame: object) -> NoReturn:
     raise SystemExit(TERMINATED_EXIT)
 
 
+@contextmanager
+def _brief() -> Iterator[None]:
+    """Spare a run of the command what only long ones profit from.
+
+    What is imported lives to the end: to look through it for garbage as it comes in, and once more at the
+    end, took a sixth of a short run. And each thread of OpenBLAS, whose work here is matrices of two rows,
+    takes milliseconds to start.
+    """
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    gc.disable()
+    try:
+        yield
+    finally:
+        gc.freeze()
+        gc.enable()
+
+
+def _ready() -> None:
+    """Begin to collect garbage, where it is not, once all that a command needs is imported."""
+    if not gc.isenabled():
+        gc.freeze()
+        gc.enable()
+
+
 def main() -> None:
     """Run the command."""
     signal.signal(signal.SIGTERM, _terminated)
-    cli(prog_name="batik-vector")
+    with _brief():
+        cli(prog_name="batik-vector")
 
 
 if __name__ == "__main__":

@@ -8,21 +8,22 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import shapely
 
 from batik_vector._version import __version__
 from batik_vector.artwork import Artwork, Cell, DropAxis, Ink, Provenance, violations
-from batik_vector.bordering import compile_borders
 from batik_vector.errors import Fault, RecipeError, blame
 from batik_vector.model import Recipe
 from batik_vector.placing import Placed, place
 from batik_vector.tiling import seams
 from batik_vector.tiling.stack import assemble
 from batik_vector.tiling.torus import to_step_grid
-from batik_vector.tiling.yardage import Yardage, compile_yardage
 from batik_vector.units import STEPS_PER_MM, to_steps
+
+if TYPE_CHECKING:
+    from batik_vector.tiling.yardage import Yardage
 
 Progress = Callable[[str], None]
 
@@ -87,6 +88,10 @@ def compile_cloth(
         RecipeError: naming the key at fault.
         SeamError: where no clean seam is found.
     """
+    # Most recipes are of a tile alone, and do without all that lays out a cloth.
+    from batik_vector.bordering import compile_borders
+    from batik_vector.tiling.yardage import compile_yardage
+
     spec = recipe.yardage
     if spec is None:
         raise RecipeError([Fault("missing: the recipe says of no cloth how large it is", "yardage")])

@@ -18,9 +18,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
-from difflib import SequenceMatcher, get_close_matches
 from itertools import takewhile
+
+from batik_vector.values import frozen
 
 
 class BatikError(Exception):
@@ -29,7 +29,7 @@ class BatikError(Exception):
     exit_code = 2
 
 
-@dataclass(frozen=True)
+@frozen
 class Fault:
     """One thing wrong with a recipe: where it stands, what it says and what was expected."""
 
@@ -98,6 +98,8 @@ def nearest(name: str, known: Sequence[str]) -> str | None:
 
     Of equally near ones the one of the same letters wins: who writes dfx has swapped those of dxf.
     """
+    from difflib import SequenceMatcher, get_close_matches
+
     small = name.lower()
     likely = get_close_matches(small, [each.lower() for each in known], n=5, cutoff=0.55)
 

@@ -7,37 +7,40 @@ its hooks are methods that it looks for by name, so the geometry floor stays fre
 
 from __future__ import annotations
 
-import dataclasses
 import enum
 import functools
 import math
 import re
+import sys
 import types
 import typing
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
-from typing import Annotated, Any, TypeAlias, TypeVar
-
-import annotated_types
+from typing import Annotated, Any, ClassVar, TypeAlias, TypeVar
 
 from batik_vector.errors import GeometryError, unknown_name
 from batik_vector.units import parse_length
+from batik_vector.values import defaults, frozen
 
 
-@dataclass(frozen=True)
-class Between(annotated_types.GroupedMetadata):
+@frozen
+class Between:
     """Inclusive bounds of a number."""
+
+    __is_annotated_types_grouped_metadata__: ClassVar[bool] = True
+    """Tells pydantic, as annotated_types' protocol has it, to take the marks that it yields for it."""
 
     low: float
     high: float
 
-    def __iter__(self) -> Iterator[annotated_types.BaseMetadata]:
+    def __iter__(self) -> Iterator[Any]:
         """Yield the bounds as annotated_types knows them."""
+        import annotated_types
+
         yield annotated_types.Ge(self.low)
         yield annotated_types.Le(self.high)
 
 
-@dataclass(frozen=True)
+@frozen
 class Says:
     """One line of help, and the paper's symbol where it has one."""
 
@@ -45,12 +48,11 @@ class Says:
     symbol: str = ""
 
 
-@dataclass(frozen=True)
-class Hidden:
-    """Marks what a recipe may not write."""
+HIDDEN = "hidden"
+"""Metadata of a field that a recipe may not write."""
 
 
-@dataclass(frozen=True)
+@frozen
 class LengthUnit:
     """Marks a float as a length in mm that a recipe may write with its unit."""
 
@@ -65,7 +67,7 @@ Length: TypeAlias = Annotated[float, LengthUnit()]
 """Millimetres on cloth; recipes write "280 mm" or a bare number."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Text:
     """Marks text with rules: ``parse`` returns it in its one spelling, or raises what was expected.
 
@@ -83,7 +85,7 @@ class Text:
         return core_schema.no_info_after_validator_function(self.parse, handler(source))
 
 
-@dataclass(frozen=True)
+@frozen
 class Several:
     """Marks text for which a list of texts may stand: ``Annotated[str | tuple[str, ...], Several()]``."""
 
@@ -130,7 +132,7 @@ Colour: TypeAlias = Annotated[str, Text(parse_colour, "#rrggbb or #rgb", _COLOUR
 """A colour on screen."""
 
 
-@dataclass(frozen=True)
+@frozen
 class OneOf:
     """Marks a value that a recipe writes as a table whose ``tag`` names a class of a catalogue.
 
@@ -190,20 +192,65 @@ def _with_tuples(value: Any) -> Any:
 
 
 @functools.cache
-def _hints(cls: type) -> dict[str, Any]:
-    hints = typing.get_type_hints(cls, include_extras=True)
-    return {field.name: hints[field.name] for field in dataclasses.fields(cls)}
+def hint_of(cls: type, name: str) -> Any:
+    """Return the type of a dataclass's field with the marks it carries.
+
+    One field at a time, as a recipe uses few of a class's, and to make a type of its text is what costs.
+    """
+    home = next(base for base in cls.__mro__ if name in vars(base).get("__annotations__", ()))
+    if home is not cls:
+        return hint_of(home, name)  # once for all heirs
+    alone = types.SimpleNamespace(__annotations__={name: cls.__annotations__[name]})
+    return typing.get_type_hints(alone, vars(sys.modules[cls.__module__]), include_extras=True)[name]
+
+
+@functools.cache
+def _span(cls: type, name: str) -> tuple[float, float] | None:
+    """Return the bounds of a field, or None where its type has none.
+
+    Where the field is but a number they settle the matter; of any other nothing lies within them.
+    """
+    hint = hint_of(cls, name)
+    bounds = list(_bounds_in(hint))
+    if not bounds:
+        return None
+    if not _is_number(hint):
+        return math.inf, -math.inf
+    return max(each.low for each in bounds), min(each.high for each in bounds)
+
+
+def _bounds_in(hint: Any) -> Iterator[Between]:
+    yield from (mark for mark in getattr(hint, "__metadata__", ()) if isinstance(mark, Between))
+    for part in typing.get_args(hint):
+        yield from _bounds_in(part)
+
+
+def _is_number(hint: Any) -> bool:
+    """Whether a type is a number's, marked or not, or None."""
+    if hasattr(hint, "__metadata__"):
+        return _is_number(hint.__origin__)
+    if typing.get_origin(hint) in (typing.Union, types.UnionType):
+        return all(_is_number(part) for part in typing.get_args(hint))
+    return hint in (int, float, types.NoneType)
 
 
 def check(value: Any) -> None:
     """Raise where a dataclass instance holds a number outside its bounds, in a field or in a list of them.
 
+    Defaults are taken to be right.
+
     Raises:
         GeometryError: naming the field, its value and the bounds.
     """
     cls: type = type(value)
-    for name, hint in _hints(cls).items():
-        for number, bounds in _outside(hint, getattr(value, name)):
+    for name, default in defaults(value).items():
+        held = getattr(value, name)
+        if held is default or held is None:
+            continue
+        span = _span(cls, name)
+        if span is None or (type(held) in (int, float) and span[0] <= held <= span[1]):
+            continue
+        for number, bounds in _outside(hint_of(cls, name), held):
             raise GeometryError(f"{name} = {number}, expected {bounds.low:g} to {bounds.high:g}")
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 import shapely
@@ -16,14 +16,17 @@ from batik_vector.geometry.sampling import Array
 from batik_vector.motif import Figure, Motif, Treatment, draw
 from batik_vector.placement import Placement
 from batik_vector.tiling.layouts import Clear, Stripes, Toss
-from batik_vector.tiling.marks import Field
 from batik_vector.tiling.orbits import Orbit
-from batik_vector.tiling.scatter import Torus, in_steps
-from batik_vector.tiling.stack import Sheet
-from batik_vector.tiling.stripes import Courses, courses
+from batik_vector.tiling.sheets import Sheet
 from batik_vector.tiling.torus import Lattice
-from batik_vector.tiling.toss import Marks, Tossed, toss
 from batik_vector.units import GRID_MM, STEPS_PER_MM
+from batik_vector.values import frozen
+
+# How grounds are laid is imported once a recipe has one.
+if TYPE_CHECKING:
+    from batik_vector.tiling.marks import Field
+    from batik_vector.tiling.stripes import Courses
+    from batik_vector.tiling.toss import Tossed
 
 BODY_SHARE, FINEST_BODY, COARSEST_BODY = 0.003, 0.005, 0.1
 """Tolerance of the outlines of tossed marks: a share of a mark's breadth, within two bounds in mm."""
@@ -32,7 +35,7 @@ NEXT_SEED = 7919
 """By how much the seeds of one toss and the next differ."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Ground:
     """What a ground is laid on.
 
@@ -78,6 +81,9 @@ def scattered(
     Returns:
         The toss; its copies are maps of motif units.
     """
+    from batik_vector.tiling.scatter import Torus, in_steps
+    from batik_vector.tiling.toss import Marks, Tossed, toss
+
     scale *= spec.size[0]
     drawn = {name: _drawn(motif, scale, ground.tolerance) for name, motif in motifs.items()}
     bodies = [_body(figures, placement, scale, ground.inks) for figures, _ in drawn.values()]
@@ -99,13 +105,13 @@ def scattered(
     seed = ground.seed + NEXT_SEED * len(ground.tossed)
     tossed = toss(spec, marks, torus, _taken(spec, placement, ground), seed)
     grown = Affine.scale(scale)
-    return Tossed(
-        tuple([copy @ grown for copy in copies] for copies in tossed.copies), tossed.field, tossed.report
-    )
+    return Tossed(tuple(copies @ grown for copies in tossed.copies), tossed.field, tossed.report)
 
 
 def striped(placement: Placement, spec: Stripes, scale: float, unit: Cell, ground: Ground) -> Courses:
     """Return where the lines of a placement run."""
+    from batik_vector.tiling.stripes import courses
+
     orbit = ground.orbit
     middle = unit.width / 2 / orbit.base.a, unit.height / 2 / orbit.base.d
     x, y = orbit.base.at(np.array([placement.at or orbit.middle or middle]))[0].tolist()
@@ -181,6 +187,8 @@ def _overreach(
 
 def _taken(spec: Toss, placement: Placement, ground: Ground) -> Field:
     """Return what marks keep clear of: enough larger that the placement's own gap does not cut it."""
+    from batik_vector.tiling.marks import Field
+
     nothing = Field.of(np.empty(0, dtype=object))
     if spec.clear == Clear.NONE:
         return nothing

@@ -7,9 +7,8 @@ import os
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 import shapely
 
@@ -17,18 +16,19 @@ from batik_vector.artwork import Artwork, Layer, Page
 from batik_vector.compiler import compile_cloth, compile_recipe
 from batik_vector.errors import ExportError, Fault, GeometryError, RecipeError, SeamError
 from batik_vector.export import FORMATS, write_all_whole, write_page
-from batik_vector.export.pdf import units_per_user_unit
 from batik_vector.model import OutputSpec, Recipe
 from batik_vector.outputs import OUTPUTS, Piece, PngOutput
 from batik_vector.reading.files import COMPILED
 from batik_vector.recipe import load_recipe, located
-from batik_vector.tiling.field import repeated, with_bleed
 from batik_vector.tiling.fitting import pixel_advice
-from batik_vector.tiling.yardage import Yardage
 from batik_vector.units import STEPS_PER_MM
+from batik_vector.values import frozen
+
+if TYPE_CHECKING:
+    from batik_vector.tiling.yardage import Yardage
 
 
-@dataclass(frozen=True)
+@frozen
 class Job:
     """A recipe that has been read, and the files to make of it."""
 
@@ -196,12 +196,18 @@ def made(job: Job, tell: Callable[[str], None]) -> Artwork:
 def render_output(page: Page, output: OutputSpec, sink: BinaryIO) -> None:
     """Write a file: a cloth, or the tile repeated or carried beyond its edges as the output asks."""
     if isinstance(page, Artwork):
-        across, up = getattr(output, "repeat", (1, 1))
-        if (across, up) != (1, 1):
-            page = repeated(page, across, up)
-        if getattr(output, "bleed", 0.0):
-            page = with_bleed(page, getattr(output, "bleed", 0.0))
+        page = _set_out(page, getattr(output, "repeat", (1, 1)), getattr(output, "bleed", 0.0))
     write_page(page, sink, output.format, output.options)
+
+
+def _set_out(tile: Artwork, repeat: tuple[int, int], bleed: float) -> Artwork:
+    if repeat == (1, 1) and not bleed:
+        return tile
+    # Most files show the tile once, and do without all that fills a field with it.
+    from batik_vector.tiling.field import repeated, with_bleed
+
+    field = tile if repeat == (1, 1) else repeated(tile, *repeat)
+    return with_bleed(field, bleed) if bleed else field
 
 
 def run(job: Job, tell: Callable[[str], None]) -> dict[str, Any]:
@@ -347,7 +353,11 @@ def warnings(recipe: Recipe, artwork: Artwork) -> list[str]:
 
 def _page_warnings(path: Path, output: OutputSpec, page: Page) -> list[str]:
     """Return what readers of a file may take wrongly."""
-    if output.format == "pdf" and (unit := units_per_user_unit(page)) > 1:
+    if output.format != "pdf":
+        return []
+    from batik_vector.export.pdf import units_per_user_unit
+
+    if (unit := units_per_user_unit(page)) > 1:
         return [
             f"{path.name}: over 5.08 m long, and so in units of {unit} points (UserUnit): a program that "
             f"passes this over shows it {unit} times too small"

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Annotated, TypeAlias
 
 from batik_vector.artwork import Overlap
 from batik_vector.borderspec import BorderSpec
 from batik_vector.errors import Fault, GeometryError, RecipeError
 from batik_vector.fields import (
+    HIDDEN,
     Between,
     Colour,
-    Hidden,
     Length,
     OneOf,
     Says,
@@ -25,12 +25,13 @@ from batik_vector.outputs import AnyOutput, OutputSpec
 from batik_vector.placement import Placement
 from batik_vector.references import Path, dotted, places, unknown_references
 from batik_vector.tiling.cells import Cut, TileSpec
-from batik_vector.tiling.yardage import YardageSpec
+from batik_vector.tiling.yardspec import YardageSpec
+from batik_vector.values import frozen
 
 AnyMotif: TypeAlias = Annotated[Motif, OneOf(lambda: MOTIFS, "motif")]
 
 
-@dataclass(frozen=True, kw_only=True)
+@frozen(kw_only=True)
 class InkSpec:
     """One bath, screen, pen or tool. The order of the inks in the recipe is their painting order."""
 
@@ -44,7 +45,7 @@ class InkSpec:
         object.__setattr__(self, "overlap", choice(Overlap, self.overlap, "overlap"))
 
 
-@dataclass(frozen=True, kw_only=True)
+@frozen(kw_only=True)
 class ClothSpec:
     """The ground."""
 
@@ -61,7 +62,7 @@ def _colour(text: str) -> str:
         raise GeometryError(f'colour = "{text}", {error}') from None
 
 
-@dataclass(frozen=True, kw_only=True)
+@frozen(kw_only=True)
 class Recipe:
     """All that is needed to make an artwork."""
 
@@ -83,7 +84,7 @@ class Recipe:
     )
     cloth: Annotated[ClothSpec, Says("the ground")] = field(default_factory=ClothSpec)
     output: Annotated[tuple[AnyOutput, ...], Says("files to write")] = ()
-    source: Annotated[str, Hidden()] = ""
+    source: str = field(default="", metadata={HIDDEN: True})
 
     __pydantic_config__ = {"strict": True, "allow_inf_nan": False}  # noqa: RUF012
 

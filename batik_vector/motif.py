@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import enum
 import functools
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, fields
+from collections.abc import Callable
+from dataclasses import field, fields
 from typing import Annotated, TypeAlias
 
 import numpy as np
@@ -20,9 +20,11 @@ from batik_vector.errors import GeometryError, unknown_name
 from batik_vector.fields import Between, Length, OneOf, Says, check, choice
 from batik_vector.geometry.curves import CURVES, Circle, Curve, Hypocycloid, Petal, Rose, Superellipse, trace
 from batik_vector.geometry.ifs import distinct
-from batik_vector.geometry.maps.affine import Affine
+from batik_vector.geometry.maps.affine import IDENTITY, Affine
+from batik_vector.geometry.maps.affines import Affines, turns
 from batik_vector.geometry.regions import FillRule, oriented, settle
 from batik_vector.geometry.sampling import Array, Geometries, Points
+from batik_vector.values import frozen
 
 
 class Treatment(enum.StrEnum):
@@ -44,7 +46,7 @@ class Treatment(enum.StrEnum):
 AnyCurve: TypeAlias = Annotated[Curve, OneOf(lambda: CURVES, "curve")]
 
 
-@dataclass(frozen=True, kw_only=True)
+@frozen(kw_only=True)
 class Dress:
     """What every element says of its look."""
 
@@ -68,7 +70,7 @@ class Dress:
         object.__setattr__(self, "fill", choice(FillRule, self.fill, "fill rule"))
 
 
-@dataclass(frozen=True, kw_only=True)
+@frozen(kw_only=True)
 class Element(Dress):
     """A curve and its copies turned about the motif's centre.
 
@@ -85,16 +87,15 @@ class Element(Dress):
     spin: Annotated[float, Between(-360, 360), Says("degrees each copy is turned about itself")] = 0.0
     mirror: Annotated[bool, Says("also draw each copy's mirror image")] = False
 
-    def copies(self) -> list[Affine]:
-        """Return where the curve is drawn."""
+    @functools.cached_property
+    def copies(self) -> Affines:
+        """Where the curve is drawn."""
         shift = Affine.translation((self.radius, 0)) @ Affine.turn(self.spin)
-        turns = [Affine.turn(self.turn + self.arc * k / self.count) for k in range(self.count)]
-        if not self.mirror:
-            return [turn @ shift for turn in turns]
-        return [turn @ image @ shift for turn in turns for image in (Affine(), Affine.mirror(0))]
+        turned = turns([self.turn + self.arc * k / self.count for k in range(self.count)])
+        return (turned.after(Affines.of([IDENTITY, Affine.mirror(0)])) if self.mirror else turned) @ shift
 
 
-@dataclass(frozen=True, kw_only=True)
+@frozen(kw_only=True)
 class Leaf(Dress):
     """The leaves of a flower: superellipses through the centre. Tian et al. 2019, Eq. 6."""
 
@@ -117,7 +118,7 @@ class Leaf(Dress):
         return _dressed(self, "leaf", curve, self.count, turn=first, radius=self.length / 2)
 
 
-@dataclass(frozen=True, kw_only=True)
+@frozen(kw_only=True)
 class Petals(Dress):
     """The petals of a flower: those of a rose, set round the centre. Tian et al. 2019, Eq. 9 and 10."""
 
@@ -131,7 +132,7 @@ class Petals(Dress):
         return _dressed(self, "petal", Petal(self.n, self.length), self.count, turn=self.turn)
 
 
-@dataclass(frozen=True, kw_only=True)
+@frozen(kw_only=True)
 class Pistil(Dress):
     """The pistils of a flower: the cusps of a hypocycloid. Tian et al. 2019, Eq. 13 and 14."""
 
@@ -156,7 +157,7 @@ class Pistil(Dress):
         return _dressed(self, "pistil", self._star(), 1, turn=self.turn)
 
 
-@dataclass(frozen=True, kw_only=True)
+@frozen(kw_only=True)
 class Core(Dress):
     """The core of a flower: a small rose, and a circle in its middle. Tian et al. 2019, Eq. 20."""
 
@@ -191,7 +192,7 @@ def _dressed(
 FLOWER_ORDER = ("leaf", "petal", "pistil", "core", "disc")
 
 
-@dataclass(frozen=True, kw_only=True)
+@frozen(kw_only=True)
 class Flower:
     """The paper's flower: leaves, petals, pistils and a core. Tian et al. 2019, §4; defaults of §5.1."""
 
@@ -213,6 +214,10 @@ class Flower:
 
     def parts(self) -> tuple[Element, ...]:
         """Return the elements that are drawn, bottom first."""
+        return self._parts
+
+    @functools.cached_property
+    def _parts(self) -> tuple[Element, ...]:
         parts: dict[str, Leaf | Petals | Pistil | Core] = {
             "leaf": self.leaf,
             "petal": self.petal,
@@ -225,7 +230,7 @@ class Flower:
         return tuple(drawn[name] for name in self.order if name in drawn)
 
 
-@dataclass(frozen=True, kw_only=True)
+@frozen(kw_only=True)
 class Rosette:
     """Any curves, each repeated round the centre, bottom first."""
 
@@ -246,7 +251,7 @@ MOTIFS: dict[str, type] = {"flower": Flower, "rosette": Rosette}
 Motif: TypeAlias = Flower | Rosette
 
 
-@dataclass(frozen=True)
+@frozen
 class Figure:
     """An element as geometry, in motif units: ``areas`` filled, ``lines`` its centre lines."""
 
@@ -269,13 +274,13 @@ def draw(motif: Motif, tolerance: float | Callable[[Points], Array]) -> list[Fig
 
 
 def _draw(element: Element, tolerance: float | Callable[[Points], Array]) -> Figure:
-    copies = element.copies()
+    copies = element.copies
     if not callable(tolerance):
         look = element.curve, element.fill, element.contours, tolerance
-        return Figure(element, *_copied(look, tuple(copies)))
+        return Figure(element, *_copied(look, copies))
 
     def everywhere(points: Points) -> Array:
-        return np.asarray(np.min([tolerance(copy.at(points)) for copy in copies], axis=0))
+        return np.asarray(np.min([tolerance(images) for images in copies.at(points)], axis=0))
 
     areas, lines = _outlined(element.curve, element.fill, element.contours, everywhere)
     reach = float(np.min(everywhere(shapely.get_coordinates(lines))))
@@ -287,7 +292,7 @@ Look: TypeAlias = tuple[Curve, FillRule, int, float]
 
 
 @functools.lru_cache(maxsize=128)
-def _copied(look: Look, copies: tuple[Affine, ...]) -> tuple[Geometries, Geometries]:
+def _copied(look: Look, copies: Affines) -> tuple[Geometries, Geometries]:
     """Return areas and lines of a curve and its copies. Kept: who turns one knob draws the rest again."""
     areas, lines = _turned(*_alone(look), copies, look[-1])
     for marks in (areas, lines):
@@ -317,14 +322,11 @@ def _outlined(
 
 
 def _turned(
-    areas: Geometries, lines: Geometries, copies: Sequence[Affine], reach: float
+    areas: Geometries, lines: Geometries, copies: Affines, reach: float
 ) -> tuple[Geometries, Geometries]:
     """Return the copies of an element that differ."""
     kept = distinct(copies, [np.concatenate([areas, lines])], reach)
-    return (
-        np.concatenate([copy.apply(areas) for copy in kept]) if len(areas) else areas,
-        np.concatenate([copy.apply(lines) for copy in kept]),
-    )
+    return kept.apply(areas), kept.apply(lines)
 
 
 def _bands(nested: list[Geometries]) -> Geometries:

@@ -6,14 +6,16 @@ Coordinates are whole grid steps of 1 µm, y upwards, so that moving, repeating 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TypeAlias
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from batik_vector.errors import GeometryError
 from batik_vector.units import STEPS_PER_MM
+from batik_vector.values import frozen
 
 Steps: TypeAlias = NDArray[np.int64]
 """Coordinates in whole grid steps of 1 µm."""
@@ -21,8 +23,11 @@ Offsets: TypeAlias = NDArray[np.int64]
 """Where runs begin in an array, and at last where it ends: k + 1 numbers for k runs."""
 Index: TypeAlias = NDArray[np.intp]
 
+FAR = 2.0**52
+"""A float beyond int64 would wrap round unseen; brought to here it is still beyond every range we write."""
 
-@dataclass(frozen=True)
+
+@frozen
 class Outlines:
     """The marks of an ink as arrays.
 
@@ -46,11 +51,19 @@ class Outlines:
 
     def moved(self, right: int = 0, up: int = 0) -> Outlines:
         """Return the same marks elsewhere."""
-        return self if right == up == 0 else replace(self, points=self.points + np.array([right, up]))
+        if right == up == 0:
+            return self
+        return self._placed(self.points[:, 0] + right, self.points[:, 1] + up)
 
-    def flipped(self, height: int) -> Outlines:
-        """Return the same marks with y pointing down from the top of a page ``height`` steps high."""
-        return replace(self, points=self.points * np.array([1, -1]) + np.array([0, height]))
+    def flipped(self, height: int, right: int = 0) -> Outlines:
+        """Return the same marks with y pointing down from ``height``, and moved to the right."""
+        return self._placed(self.points[:, 0] + right, height - self.points[:, 1])
+
+    def _placed(self, x: NDArray[np.int64], y: NDArray[np.int64]) -> Outlines:
+        # Column by column: NumPy's loop over the two numbers of each point is many times dearer.
+        points = np.empty_like(self.points)
+        points[:, 0], points[:, 1] = x, y
+        return replace(self, points=points)
 
     def repeating(self) -> tuple[Steps, Offsets]:
         """Return points and ring offsets with the first point of each closed ring repeated at its end."""
@@ -102,41 +115,68 @@ def nothing() -> Outlines:
 
 
 def of_polygons(areas: NDArray[np.object_], scale: float = 1.0) -> Outlines:
-    """Return polygons as outlines, their coordinates multiplied by a scale and rounded."""
+    """Return polygons as outlines, their coordinates multiplied by a scale and rounded.
+
+    Raises:
+        GeometryError: where a coordinate is not finite.
+    """
     if not len(areas):
         return nothing()
-    _, coords, (rings, marks) = shapely.to_ragged_array(areas, include_z=False)
-    points = _rounded(coords, scale)
+    points = _rounded(shapely.get_coordinates(areas), scale)
+    sizes, counts = _ring_sizes(areas)
+    ends = np.cumsum(sizes)
     keep = np.ones(len(points), bool)
-    keep[rings[1:] - 1] = False
-    starts = np.asarray(rings, np.int64)
+    keep[ends - 1] = False
     return Outlines(
-        points[keep],
-        starts - np.arange(len(starts), dtype=np.int64),
-        np.asarray(marks, np.int64),
-        np.ones(len(starts) - 1, bool),
+        points.take(np.flatnonzero(keep), axis=0),
+        np.concatenate([[0], ends - np.arange(1, len(ends) + 1)]),
+        np.concatenate([[0], np.cumsum(counts)]),
+        np.ones(len(ends), bool),
     )
 
 
+def _ring_sizes(areas: NDArray[np.object_]) -> tuple[Offsets, Offsets]:
+    """Return how many coordinates each ring of some polygons has, and how many rings each polygon."""
+    sizes = np.asarray(shapely.get_num_coordinates(areas), np.int64)
+    counts = np.where(sizes > 0, shapely.get_num_interior_rings(areas) + 1, 0).astype(np.int64)
+    # To make a ring costs more than to read its points: only where there are holes.
+    holed = counts > 1
+    of_holed = np.repeat(holed, counts)
+    rings = np.empty(len(of_holed), np.int64)
+    rings[~of_holed] = sizes[counts == 1]
+    rings[of_holed] = shapely.get_num_points(shapely.get_rings(areas[holed]))
+    return rings, counts
+
+
 def of_polylines(lines: NDArray[np.object_], scale: float = 1.0) -> Outlines:
-    """Return polylines as outlines; those that end where they began are closed."""
+    """Return polylines as outlines; those that end where they began are closed.
+
+    Raises:
+        GeometryError: where a coordinate is not finite.
+    """
     if not len(lines):
         return nothing()
-    _, coords, (bounds,) = shapely.to_ragged_array(lines, include_z=False)
-    points = _rounded(coords, scale)
-    offsets: Offsets = np.array(bounds, np.int64)
+    points = _rounded(shapely.get_coordinates(lines), scale)
+    offsets = np.concatenate([[0], np.cumsum(shapely.get_num_coordinates(lines), dtype=np.int64)])
     first, last = offsets[:-1], offsets[1:] - 1
     # Fewer than three different places enclose nothing: there and back is an open line.
     closed = (points[first] == points[last]).all(axis=1) & (last - first >= 3)
     keep = np.ones(len(points), bool)
     keep[last[closed]] = False
     offsets[1:] -= np.cumsum(closed)
-    return Outlines(points[keep], offsets, np.arange(len(offsets)), closed)
+    return Outlines(points.take(np.flatnonzero(keep), axis=0), offsets, np.arange(len(offsets)), closed)
 
 
 def _rounded(coords: NDArray[np.float64], scale: float) -> Steps:
-    # A float beyond int64 would wrap round unseen; clipped, it is still beyond every range we write.
-    return np.clip(np.rint(coords * scale), -(2.0**62), 2.0**62).astype(np.int64)
+    """Return coordinates, which are used up, as steps."""
+    # What is not a number is neither above nor below.
+    if not (coords.min(initial=0.0) >= -FAR and coords.max(initial=0.0) <= FAR):
+        if not np.isfinite(coords).all():
+            raise GeometryError("a coordinate is not finite")
+        np.clip(coords, -FAR, FAR, out=coords)
+    if scale != 1.0:
+        coords *= scale
+    return np.rint(coords, out=coords).astype(np.int64)
 
 
 def to_polygons(outlines: Outlines) -> NDArray[np.object_]:

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import enum
 import re
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from typing import Annotated, Any, ClassVar, TypeAlias
 
 from batik_vector.errors import GeometryError
 from batik_vector.export.options import DxfOptions, PdfOptions, PngOptions, SvgOptions
 from batik_vector.fields import Between, Length, OneOf, Says, Text, check, choice
+from batik_vector.values import frozen
 
-_FILE_WORD = re.compile(r"[\w][\w .+-]{0,79}(?<![ .])\Z")
+_FILE_WORD = r"[\w][\w .+-]{0,79}(?<![ .])\Z"
 Count: TypeAlias = Annotated[int, Between(1, 200)]
 
 
@@ -30,12 +31,12 @@ def parse_file_word(text: str) -> str:
     Raises:
         ValueError: with what was expected.
     """
-    if text and not _FILE_WORD.match(text):
+    if text and not re.match(_FILE_WORD, text):
         raise ValueError("expected letters, digits, spaces and - _ + . only, no folder")
     return text
 
 
-@dataclass(frozen=True, kw_only=True)
+@frozen(kw_only=True)
 class OutputSpec:
     """A file to write. Each format has a class of its own in ``OUTPUTS``, with the options of its writer."""
 
@@ -69,7 +70,7 @@ class OutputSpec:
         return self.writer(**{field.name: getattr(self, field.name) for field in fields(self.writer)})
 
 
-@dataclass(frozen=True, kw_only=True)
+@frozen(kw_only=True)
 class SvgOutput(OutputSpec, SvgOptions):
     """An SVG file: layers for Inkscape, Illustrator and plotters."""
 
@@ -78,7 +79,7 @@ class SvgOutput(OutputSpec, SvgOptions):
     repeat: Annotated[tuple[Count, Count], Says("how many tiles across and up")] = (1, 1)
 
 
-@dataclass(frozen=True, kw_only=True)
+@frozen(kw_only=True)
 class PdfOutput(OutputSpec, PdfOptions):
     """A PDF file: pages 1:1."""
 
@@ -89,7 +90,7 @@ class PdfOutput(OutputSpec, PdfOptions):
     ] = 0.0
 
 
-@dataclass(frozen=True, kw_only=True)
+@frozen(kw_only=True)
 class DxfOutput(OutputSpec, DxfOptions):
     """A DXF file: closed polylines for cutters and CAD."""
 
@@ -97,7 +98,7 @@ class DxfOutput(OutputSpec, DxfOptions):
     writer = DxfOptions
 
 
-@dataclass(frozen=True, kw_only=True)
+@frozen(kw_only=True)
 class PngOutput(OutputSpec, PngOptions):
     """A PNG file: a preview for the screen."""
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Annotated, TypeAlias
 
 from batik_vector.errors import GeometryError
@@ -11,6 +11,7 @@ from batik_vector.references import quoted
 from batik_vector.tiling.groups import GROUP_PATTERN, group, group_name
 from batik_vector.tiling.layouts import AnyLayout, Single, Stripes, Toss
 from batik_vector.tiling.symmetry import Spread
+from batik_vector.values import frozen
 
 MAX_SIDE_MM = 20_000.0
 Side: TypeAlias = Annotated[Length, Between(0.1, MAX_SIDE_MM)]
@@ -20,7 +21,7 @@ Place2D: TypeAlias = tuple[
 ]
 
 
-@dataclass(frozen=True, kw_only=True)
+@frozen(kw_only=True)
 class Placement:
     """A motif set on the cloth by a layout, at a size and a place."""
 

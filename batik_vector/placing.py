@@ -4,25 +4,31 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 import shapely
 
-from batik_vector.artwork import Cell, Geometries, Ink, Overlap
+from batik_vector.artwork import Cell, Geometries, Ink
 from batik_vector.errors import GeometryError, RecipeError, TooLargeError, UnknownNameError, blame
 from batik_vector.geometry.ifs import distinct
-from batik_vector.geometry.maps.affine import IDENTITY, Affine
+from batik_vector.geometry.maps.affine import Affine
+from batik_vector.geometry.maps.affines import ONE, Affines
 from batik_vector.geometry.sampling import Array, Points
 from batik_vector.grounds import Ground, lattice_of, scattered, striped
 from batik_vector.model import Recipe
-from batik_vector.motif import Element, Figure, Motif, Treatment, draw
+from batik_vector.motif import Figure, Motif, Treatment, draw
 from batik_vector.placement import Placement
+from batik_vector.spreading import Laid, Look, set_down, sized
 from batik_vector.tiling.layouts import Bend, Stripes, Toss
 from batik_vector.tiling.orbits import TRIVIAL, Orbit
-from batik_vector.tiling.stack import Sheet, quad_segs
-from batik_vector.tiling.toss import Tossed
+from batik_vector.tiling.sheets import Sheet
 from batik_vector.units import GRID_MM
+from batik_vector.values import frozen
+
+if TYPE_CHECKING:
+    from batik_vector.tiling.toss import Tossed
 
 COARSE = 2e-3
 """Tolerance of the first drawing, in motif units: enough to measure it and to foretell its size."""
@@ -34,7 +40,7 @@ SOURCE_SHARE = 0.2
 """Share of the tolerance that the source of a bent image may use; the bending itself has the rest."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Placed:
     """The sheets of a placement, bottom first, how many vertices they have, and the toss where it is one."""
 
@@ -68,49 +74,64 @@ def place(
     """
     if isinstance(placement.layout, Toss | Stripes):
         return _ground(placement, recipe, unit, inks, limit, orbit, before)
-    motif = _known(recipe.motif, placement.motifs[0], "motif")
-    rough = draw(motif, COARSE)
+    layout, cell = placement.layout, (unit.width / orbit.base.a, unit.height / orbit.base.d)
+    motif, times = _known(recipe.motif, placement.motifs[0], "motif"), len(orbit.operations)
+    finest = max(recipe.tolerance - GRID_SHARE, recipe.tolerance / 2) / max(orbit.base.stretch, 1.0)
     with blame("layout"):
-        images = placement.layout.images((1.0, 1.0))
-    times = len(orbit.operations)
+        images = layout.images(_in_units(cell, placement.scale or 1.0))
+    rough = draw(motif, _coarse(images, finest, placement.scale))
     _refuse_past(limit, rough, images, times)
     with blame("layout"):
         scale = placement.scale or _scale(placement, rough, images)
-        cell = unit.width / orbit.base.a, unit.height / orbit.base.d
-        images = placement.layout.images((cell[0] / scale, cell[1] / scale))
+        if not (placement.scale or layout.spreads):
+            images = layout.images(_in_units(cell, scale))
     _refuse_past(limit, rough, images, times, COARSE * scale / recipe.tolerance)
-    finest = max(recipe.tolerance - GRID_SHARE, recipe.tolerance / 2) / max(orbit.base.stretch, 1.0)
-    tolerance = finest / scale
     with blame("layout"):
-        figures, copies = _set_out(motif, images, tolerance)
-    spread = [_copied(figure, copies) for figure in figures]
-    if placement.width and placement.layout.spreads:
+        figures, copies = _set_out(motif, images, finest / scale)
+    if placement.width and layout.spreads:
         # Measured again on the fine drawing: the coarse one is a little narrower.
-        scale = placement.width / _extent(spread)
+        scale = placement.width / _extent(figures, copies)
     at = placement.at or orbit.middle or (cell[0] / 2, cell[1] / 2)
     on_cloth = orbit.base @ Affine.translation(at) @ Affine.turn(placement.turn) @ Affine.scale(scale)
-    if orbit.is_trivial or orbit.region:
-        drawn = [_copied(figure, [on_cloth]) for figure in spread]
-        drawn = [replace(f, areas=orbit.mirrored(f.areas), lines=orbit.mirrored(f.lines)) for f in drawn]
-    else:
-        maps = orbit.images([on_cloth @ copy for copy in copies], _marks_of(figures), tolerance)
-        drawn = [_copied(figure, maps) for figure in figures]
-    return _placed({placement.motifs[0]: drawn}, placement, inks, recipe.tolerance)
+    laid = Laid(figures, on_cloth @ copies, orbit.is_trivial)
+    if orbit.region:
+        laid = _mirrored(laid, orbit)
+    elif not orbit.is_trivial:
+        laid = replace(laid, maps=orbit.images(laid.maps, _marks_of(figures), finest / scale))
+    return _placed({placement.motifs[0]: laid}, placement, inks, recipe.tolerance)
+
+
+def _in_units(cell: tuple[float, float], scale: float) -> tuple[float, float]:
+    return cell[0] / scale, cell[1] / scale
+
+
+def _coarse(images: Affines | Bend, finest: float, scale: float | None) -> float:
+    """Return the tolerance of the first drawing: the last one's where that is known, and coarser still."""
+    if scale is None or isinstance(images, Bend):
+        return COARSE
+    return max(COARSE, finest / scale / float(images.stretches.max()))
+
+
+def _mirrored(laid: Laid, orbit: Orbit) -> Laid:
+    """Return what the region of an orbit leaves of copies, and all its images, in mm."""
+    figures = [
+        replace(figure, areas=orbit.mirrored(figure.areas), lines=orbit.mirrored(figure.lines))
+        for figure in sized(laid.figures, laid.maps)
+    ]
+    return Laid(figures, ONE)
 
 
 def _placed(
-    drawn: Mapping[str, list[Figure]],
+    drawn: Mapping[str, Laid],
     placement: Placement,
     inks: Mapping[str, Ink],
     tolerance: float,
     tossed: Tossed | None = None,
 ) -> Placed:
-    """Return the sheets of all motifs of a placement, whose figures are in mm."""
-    named = {name: replace(placement, motif=name) for name in drawn}
-    sheets = [sheet for name, own in named.items() for sheet in _bare(drawn[name], own, inks, tolerance)]
-    for name, own in named.items():
-        for figure in drawn[name]:
-            sheets += _sheets(figure, own, inks, tolerance)
+    """Return the sheets of all motifs of a placement."""
+    look = Look(placement, inks, tolerance)
+    parts = [set_down(laid, name, look) for name, laid in drawn.items()]
+    sheets = [sheet for bare, _ in parts for sheet in bare] + [sheet for _, own in parts for sheet in own]
     marks = np.concatenate([part for sheet in sheets for part in (sheet.areas, sheet.lines)])
     return Placed(sheets, int(shapely.get_num_coordinates(marks).sum()), tossed)
 
@@ -130,7 +151,7 @@ def _ground(
     scale = placement.scale or (placement.width or 1.0) / max(_extent(each) for each in rough.values())
     finest = max(recipe.tolerance - GRID_SHARE, recipe.tolerance / 2)
     finer, times = COARSE * scale / finest, len(orbit.operations)
-    tossed, drawn = None, {}
+    tossed, drawn = None, dict[str, Laid]()
     with blame("layout"):
         tosses = [each.tossed for each in before if each.tossed]
         sheets = [sheet for each in before for sheet in each.sheets]
@@ -140,32 +161,32 @@ def _ground(
             for (name, motif), copies in zip(motifs.items(), tossed.copies, strict=True):
                 if copies:
                     _refuse_past(limit, rough[name], copies, times, finer)
-                    figures, copies = _set_out(motif, copies, finest)
-                    drawn[name] = [_multiplied(figure, copies, orbit) for figure in figures]
+                    drawn[name] = _multiplied(Laid(*_set_out(motif, copies, finest)), orbit)
         elif isinstance(placement.layout, Stripes):
             lines = striped(placement, placement.layout, scale, unit, ground)
             for name, motif in motifs.items():
-                copies = [IDENTITY] * (len(lines.starts) * lines.links)
-                _refuse_past(limit, rough[name], copies, times, finer)
-                for figure in _shown(draw(motif, finest / lines.stretch)):
-                    figure = replace(figure, areas=lines.areas(figure.areas), lines=lines.lines(figure.lines))
-                    drawn.setdefault(name, []).append(_multiplied(figure, [IDENTITY], orbit))
+                _refuse_past(limit, rough[name], len(lines.starts) * lines.links, times, finer)
+                figures = [
+                    replace(figure, areas=lines.areas(figure.areas), lines=lines.lines(figure.lines))
+                    for figure in _shown(draw(motif, finest / lines.stretch))
+                ]
+                drawn[name] = _multiplied(Laid(figures, ONE), orbit)
     return _placed(drawn, placement, inks, recipe.tolerance, tossed)
 
 
-def _multiplied(figure: Figure, copies: list[Affine], orbit: Orbit) -> Figure:
-    """Return copies of a figure, in mm, and their images under the symmetry."""
-    if orbit.region is None:
-        return _copied(figure, [operation @ copy for operation in orbit.operations for copy in copies])
-    figure = _copied(figure, copies)
-    return replace(figure, areas=orbit.mirrored(figure.areas), lines=orbit.mirrored(figure.lines))
+def _multiplied(laid: Laid, orbit: Orbit) -> Laid:
+    """Return copies, in mm, and their images under the symmetry."""
+    return _mirrored(laid, orbit) if orbit.region else replace(laid, maps=orbit.multiplied(laid.maps))
 
 
 def _refuse_past(
-    limit: int, rough: list[Figure], images: list[Affine] | Bend, times: int, finer: float = 1.0
+    limit: int, rough: list[Figure], images: Affines | Bend | int, times: int, finer: float = 1.0
 ) -> None:
     """Raise where ``times`` drawings, ``finer`` times as fine as the rough one, would pass the limit."""
-    count = images.system.image_count() if isinstance(images, Bend) else len(images)
+    if isinstance(images, int):
+        count = images
+    else:
+        count = images.system.image_count() if isinstance(images, Bend) else len(images)
     vertices = _estimate(rough, count * times, finer)
     if vertices > limit:
         raise TooLargeError(
@@ -180,39 +201,29 @@ def _known(catalogue: Mapping[str, Motif], name: str, what: str) -> Motif:
     return catalogue[name]
 
 
-def _scale(placement: Placement, rough: list[Figure], images: list[Affine] | Bend) -> float:
+def _scale(placement: Placement, rough: list[Figure], images: Affines | Bend) -> float:
     if placement.width is None:
         raise RecipeError("a placement needs a width or a scale")
     if not placement.layout.spreads:
         return placement.width / _extent(rough)
     if isinstance(images, Bend):
         return placement.width / _extent(_bent(rough, images, COARSE))
-    return placement.width / _extent([_copied(figure, images) for figure in _hulls(rough)])
+    return placement.width / _extent(rough, images)
 
 
-def _hulls(figures: list[Figure]) -> list[Figure]:
-    """Return one figure that reaches as far as all of them together, with few vertices."""
-    everything = np.concatenate([np.concatenate([figure.areas, figure.lines]) for figure in figures])
-    hull = shapely.convex_hull(shapely.geometrycollections(everything))
-    return [Figure(figures[0].element, np.array([hull], dtype=object), np.empty(0, dtype=object))]
-
-
-def _extent(figures: list[Figure]) -> float:
-    """Return the breadth of figures in their own units."""
-    low, high = math.inf, -math.inf
-    for figure in figures:
-        for marks in (figure.areas, figure.lines):
-            if len(marks):
-                bounds = shapely.total_bounds(marks)
-                low, high = min(low, float(bounds[0])), max(high, float(bounds[2]))
-    if not high > low:
+def _extent(figures: list[Figure], copies: Affines = ONE) -> float:
+    """Return the breadth of copies of figures in their own units."""
+    marks = np.concatenate(_marks_of(figures))
+    points = shapely.get_coordinates(shapely.convex_hull(shapely.geometrycollections(marks)))
+    x = copies.at(points)[:, :, 0] if len(points) else np.zeros((1, 1))
+    if not np.ptp(x) > 0:
         raise GeometryError("the motif has no breadth to scale: give a scale instead of a width")
-    return high - low
+    return float(x.max()) - float(x.min())
 
 
 def _estimate(rough: list[Figure], count: int, finer: float) -> int:
     """Foretell the vertices of the fine drawing: they grow with the root of the tolerance's ratio."""
-    drawn = sum(int(shapely.get_num_coordinates(np.concatenate([f.areas, f.lines])).sum()) for f in rough)
+    drawn = int(shapely.get_num_coordinates(np.concatenate(_marks_of(rough))).sum())
     return int(drawn * max(1.0, math.sqrt(finer))) * count
 
 
@@ -220,9 +231,7 @@ def _human(number: int) -> str:
     return f"{number:,}" if number < 10**9 else f"10^{math.floor(math.log10(number))}"
 
 
-def _set_out(
-    motif: Motif, images: list[Affine] | Bend, tolerance: float
-) -> tuple[list[Figure], list[Affine]]:
+def _set_out(motif: Motif, images: Affines | Bend, tolerance: float) -> tuple[list[Figure], Affines]:
     """Draw the motif to the tolerance (motif units); return it with its copies, each different.
 
     A bent motif is all its images in one figure, of which there is one copy.
@@ -233,14 +242,16 @@ def _set_out(
         def source(points: Points) -> Array:
             return np.asarray(tolerance * SOURCE_SHARE / np.maximum(system.stretch(first.at(points)), 1e-6))
 
-        return _bent(_shown(draw(motif, source)), images, tolerance * (1 - SOURCE_SHARE)), [IDENTITY]
-    largest = max(image.stretch for image in images)
-    figures = _shown(draw(motif, tolerance / largest))
+        return _bent(_shown(draw(motif, source)), images, tolerance * (1 - SOURCE_SHARE)), ONE
+    figures = _shown(draw(motif, tolerance / float(images.stretches.max())))
     return figures, distinct(images, _marks_of(figures), tolerance)
 
 
 def _marks_of(figures: list[Figure]) -> list[Geometries]:
-    return [np.concatenate([figure.areas, figure.lines]) for figure in figures]
+    return [
+        np.concatenate([figure.areas, figure.lines]) if len(figure.lines) else figure.areas
+        for figure in figures
+    ]
 
 
 def _shown(figures: list[Figure]) -> list[Figure]:
@@ -254,12 +265,6 @@ def _shown(figures: list[Figure]) -> list[Figure]:
     ]
 
 
-def _copied(figure: Figure, images: list[Affine]) -> Figure:
-    areas = [image.apply(figure.areas) for image in images]
-    lines = [image.apply(figure.lines) for image in images]
-    return Figure(figure.element, np.concatenate(areas), np.concatenate(lines))
-
-
 def _bent(figures: list[Figure], images: Bend, tolerance: float) -> list[Figure]:
     return [
         Figure(
@@ -269,65 +274,3 @@ def _bent(figures: list[Figure], images: Bend, tolerance: float) -> list[Figure]
         )
         for figure in figures
     ]
-
-
-def _sheets(figure: Figure, placement: Placement, inks: Mapping[str, Ink], tolerance: float) -> list[Sheet]:
-    """Return what an element (mm) draws: one sheet, or two where its line is a sheet of its own."""
-    element = figure.element
-    name = ".".join(part for part in (placement.motifs[0], element.name) if part)
-    areas, lines = figure.areas, figure.lines
-    if element.treatment == Treatment.CUT:
-        return [Sheet(name, None, areas, gap=element.gap or 0.0)]
-    ink = _ink(element, element.ink or placement.ink, inks)
-    gap = element.gap
-    if gap is None and ink.overlap == Overlap.KNOCKOUT:
-        gap = 0.0
-    if element.treatment == Treatment.AREA:
-        return [Sheet(name, ink, areas, gap=gap, whole=element.whole)]
-    pen = _ink(element, element.line_ink, inks) if element.line_ink else ink
-    half = pen.width / 2
-    # A line's body reaches beyond the area it goes round, and hides what lies under it too.
-    hidden = _grown(areas, half, tolerance) if gap is not None else areas[:0]
-    if element.treatment == Treatment.BOTH:
-        over = 0.0 if pen is not ink and pen.overlap == Overlap.KNOCKOUT else None
-        return [
-            Sheet(name, ink, areas, gap=gap, cutter=hidden, whole=element.whole, margin=half),
-            Sheet(f"{name}.line", pen, lines=lines, gap=over, whole=element.whole),
-        ]
-    if element.treatment == Treatment.LINE:
-        return [Sheet(name, ink, lines=lines, gap=gap, cutter=hidden, whole=element.whole)]
-    body = _grown(lines, half, tolerance)
-    return [Sheet(name, ink, body, gap=gap, cutter=np.concatenate([body, hidden]), whole=element.whole)]
-
-
-def _bare(
-    figures: list[Figure], placement: Placement, inks: Mapping[str, Ink], tolerance: float
-) -> list[Sheet]:
-    """Return the sheet that keeps the ground bare round a whole motif, where one is asked for."""
-    if placement.gap is None:
-        return []
-    shapes = []
-    for figure in figures:
-        element, shape = figure.element, [figure.areas]
-        if len(figure.lines) and element.treatment not in (Treatment.AREA, Treatment.CUT):
-            pen = _ink(element, element.line_ink or element.ink or placement.ink, inks)
-            shape = [_grown(part, pen.width / 2, tolerance) for part in (figure.areas, figure.lines)]
-        shapes += shape
-    return [Sheet(placement.motifs[0], None, np.concatenate(shapes), gap=placement.gap)]
-
-
-def _grown(marks: Geometries, reach: float, tolerance: float) -> Geometries:
-    """Return marks grown by ``reach`` (mm), round at ends and corners."""
-    if not len(marks):
-        return marks
-    return np.asarray(shapely.buffer(marks, reach, quad_segs=quad_segs(reach, tolerance)), dtype=object)
-
-
-def _ink(element: Element, name: str, inks: Mapping[str, Ink]) -> Ink:
-    if not name and len(inks) == 1:
-        return next(iter(inks.values()))
-    if not name:
-        raise RecipeError(f"no ink is named, and the recipe has several: expected one of {', '.join(inks)}")
-    if name not in inks:
-        raise UnknownNameError(name, list(inks), "ink")
-    return inks[name]

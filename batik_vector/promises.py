@@ -3,24 +3,26 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
 import shapely
 
 from batik_vector.artwork import Artwork, Cell, DropAxis, Geometries, Layer
-from batik_vector.export.palette import Ids, xml_label
+from batik_vector.export.ids import Ids
+from batik_vector.export.palette import xml_label
 from batik_vector.importing.svg import Reading
 from batik_vector.model import Recipe
 from batik_vector.tiling.field import repeated, with_bleed
 from batik_vector.units import format_mm
+from batik_vector.values import frozen
 
 SIZE_MM = 1e-3
 """How far a page may be off the promised size."""
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class Promise:
     """What the recipe in a file makes of its page.
 

@@ -6,10 +6,11 @@ The same walk reads a recipe as a file's plain tables and as the dataclasses it 
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import Any, TypeAlias
 
 from batik_vector.errors import Fault, unknown_name
+from batik_vector.values import defaults
 
 Path: TypeAlias = tuple[str | int, ...]
 """Keys and indices from the root of a recipe."""
@@ -47,18 +48,18 @@ def quoted(text: str) -> str:
 
 def children(node: Any) -> Iterator[tuple[str | int, Any]]:
     """Yield what a table, a list or a dataclass holds."""
-    if isinstance(node, Mapping):
+    if isinstance(node, dict):
         yield from node.items()
     elif isinstance(node, list | tuple):
         yield from enumerate(node)
     elif dataclasses.is_dataclass(node) and not isinstance(node, type):
-        for field in dataclasses.fields(node):
-            yield field.name, getattr(node, field.name)
+        for name in defaults(node):
+            yield name, getattr(node, name)
 
 
-def child(node: Any, key: str | int) -> Any:
-    """Return one thing that a node holds, or None."""
-    return next((value for name, value in children(node) if name == key), None)
+def child(node: Any, key: str) -> Any:
+    """Return one thing that a table or a dataclass holds, or None."""
+    return node.get(key) if isinstance(node, dict) else getattr(node, key, None)
 
 
 def ink_names(node: Any, path: Path = ()) -> Iterator[tuple[Path, str]]:
@@ -91,7 +92,7 @@ def unknown_references(recipe: Any) -> list[tuple[Path, Fault]]:
     found: list[tuple[Path, Fault]] = []
 
     def look(path: Path, name: str, known: Any, what: str) -> None:
-        if isinstance(known, Mapping) and known and name not in known:
+        if isinstance(known, dict) and known and name not in known:
             found.append((path, Fault(unknown_name(name, list(known), what), dotted(path))))
 
     if inks is None:

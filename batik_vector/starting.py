@@ -9,6 +9,8 @@ from pathlib import Path
 from batik_vector.errors import ExportError
 from batik_vector.references import quoted
 
+STARTERS = Path(__file__).parent / "starters"
+"""The folder of recipes to begin with: each is a kind of new recipe."""
 _TITLE = re.compile(r"^title( *)= .*$", re.MULTILINE)
 _FILE_NAME = re.compile(r"[^\w.+-]+")
 

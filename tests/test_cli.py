@@ -16,12 +16,11 @@ from click.testing import CliRunner, Result
 
 import batik_vector
 from batik_vector import export
-from batik_vector.cli import FORMATS, STARTERS, cli
+from batik_vector.cli import FORMATS, KINDS, cli
 from batik_vector.compiler import inspect
 from batik_vector.outputs import OUTPUTS
+from batik_vector.starting import STARTERS
 from tests.test_bad_input import BASE
-
-KINDS = sorted(path.stem for path in STARTERS.glob("*.toml"))
 
 
 def call(*args: str) -> Result:
@@ -191,8 +190,9 @@ def test_schema_prints_json() -> None:
     assert json.loads(good("schema").stdout)["title"] == "batik_vector recipe"
 
 
-def test_the_formats_of_the_command_are_those_of_the_package() -> None:
+def test_the_formats_and_kinds_of_the_command_are_those_of_the_package() -> None:
     assert FORMATS == tuple(export.FORMATS) == tuple(OUTPUTS)
+    assert list(KINDS) == sorted(path.stem for path in STARTERS.glob("*.toml"))
     for name, output in OUTPUTS.items():
         assert output.writer is export.FORMATS[name].options
         assert output().options == export.FORMATS[name].options()
@@ -223,6 +223,36 @@ def test_help_and_version_import_nothing_heavy() -> None:
             "tomllib",
         }
     assert run.stdout == f"batik-vector, version {batik_vector.__version__}\n"
+
+
+@pytest.mark.parametrize(("asked", "threads"), [(None, "1"), ("2", "2")])
+def test_the_command_asks_for_one_thread_of_linear_algebra_unless_told_otherwise(
+    monkeypatch: pytest.MonkeyPatch, asked: str | None, threads: str
+) -> None:
+    monkeypatch.delenv("OPENBLAS_NUM_THREADS", raising=False)
+    if asked:
+        monkeypatch.setenv("OPENBLAS_NUM_THREADS", asked)
+    code = "import atexit, os; atexit.register(lambda: print(os.environ['OPENBLAS_NUM_THREADS']))\n"
+    run = python(
+        "-c", code + "import sys; sys.argv[1:] = ['compile', 'k.toml']; import batik_vector.__main__"
+    )
+    assert (run.returncode, run.stdout) == (0, f"{threads}\n"), run.stderr
+    run = python(
+        "-c", "import os, batik_vector; batik_vector.load_recipe; print('OPENBLAS_NUM_THREADS' in os.environ)"
+    )
+    assert run.stdout == f"{asked is not None}\n"
+
+
+def test_garbage_is_collected_while_the_command_works_and_after_it() -> None:
+    code = (
+        "import gc, sys, batik_vector.jobs as jobs\n"
+        "work, seen = jobs.run, []\n"
+        "jobs.run = lambda *args: (seen.append(gc.isenabled()), work(*args))[1]\n"
+        "sys.argv[1:] = ['compile', 'k.toml']\n"
+        "try: import batik_vector.__main__\n"
+        "except SystemExit: print(seen, gc.isenabled())"
+    )
+    assert python("-c", code).stdout == "[True] True\n"
 
 
 def test_a_reader_that_goes_away_is_no_error() -> None:

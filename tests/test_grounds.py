@@ -16,7 +16,8 @@ from batik_vector.model import InkSpec, Placement, Recipe
 from batik_vector.motif import Element, Rosette, Treatment
 from batik_vector.placing import Placed, place
 from batik_vector.reading.quick import built
-from batik_vector.recipe import _validated, read_recipe
+from batik_vector.reading.slow import validated
+from batik_vector.recipe import read_recipe
 from batik_vector.tiling.cells import TileSpec
 from batik_vector.tiling.field import repeated
 from batik_vector.tiling.layouts import Clear, Lattice, Layout, Stripes, Toss
@@ -186,7 +187,7 @@ def test_recipes_say_it_all_and_both_readers_agree() -> None:
     assert one.place[0].motifs == ("a", "b")
     assert one.place[2].motifs == ("a",)
     data = tomllib.loads(TEXT)
-    slow, faults = _validated(data)
+    slow, faults = validated(data)
     assert faults == []
     assert built(Recipe, data) == slow
     assert violations(compile_recipe(one)) == []

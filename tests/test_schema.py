@@ -11,7 +11,6 @@ from typing import Any
 
 import pytest
 
-from batik_vector.cli import STARTERS
 from batik_vector.geometry.curves import CURVES
 from batik_vector.geometry.maps import VARIATIONS
 from batik_vector.model import Recipe
@@ -19,6 +18,7 @@ from batik_vector.motif import MOTIFS
 from batik_vector.outputs import OUTPUTS
 from batik_vector.reading.hints import members
 from batik_vector.schema import schema
+from batik_vector.starting import STARTERS
 from batik_vector.tiling.layouts import LAYOUTS
 from tests.test_bad_input import CASES, recipe
 

@@ -22,7 +22,7 @@ from typing import Annotated, Any
 
 from batik_vector.artwork import Overlap
 from batik_vector.borderspec import BorderSpec, Corner, Ends, Facing, RailSpec
-from batik_vector.fields import Between, Hidden, LengthUnit, OneOf, Says, Several
+from batik_vector.fields import HIDDEN, Between, LengthUnit, OneOf, Says, Several
 from batik_vector.geometry.curves import CURVES
 from batik_vector.geometry.maps import VARIATIONS
 from batik_vector.geometry.regions import FillRule
@@ -35,7 +35,7 @@ from batik_vector.tiling.friezes import FRIEZES
 from batik_vector.tiling.groups import GROUPS
 from batik_vector.tiling.layouts import LAYOUTS, Clear, MapSpec, Spot, Term
 from batik_vector.tiling.symmetry import Spread
-from batik_vector.tiling.yardage import Align, Edge
+from batik_vector.tiling.yardspec import Align, Edge
 from batik_vector.units import MM_PER_UNIT, format_mm
 
 PAGE = Path(__file__).resolve().parent.parent / "docs" / "recipe.md"
@@ -125,7 +125,7 @@ def table(cls: type, skip: frozenset[str] = frozenset()) -> Iterator[str]:
     rows = []
     for field in dataclasses.fields(cls):
         _, marks = marks_of(hints[field.name])
-        if field.name in skip or any(isinstance(mark, Hidden) for mark in marks):
+        if field.name in skip or HIDDEN in field.metadata:
             continue
         says = next((mark for mark in marks if isinstance(mark, Says)), Says(""))
         symbol = f" (the paper's *{says.symbol}*)" if says.symbol else ""

@@ -2,6 +2,7 @@
 # Makes the machine ready, step by step, doing only what is not yet done.
 #
 #   tools/setup.sh python     .venv with this package and its development tools, and cairo
+#   tools/setup.sh peers      .venv-bench with what the benchmarks measure us against
 #   tools/setup.sh clients    the real programs that tests/clients opens files in
 #
 # What the system lacks is installed by apt where we are root or sudo asks no password; elsewhere the one
@@ -11,6 +12,7 @@ cd "$(dirname "$0")/.."
 
 python=${PYTHON:-python3}
 venv=.venv
+peers=.venv-bench
 
 say() { printf '%s\n' "setup: $*" >&2; }
 
@@ -46,22 +48,57 @@ system_needs() { # packages…
     rm -f "$log"
 }
 
+environment() { # folder
+    if ! "$1/bin/python" -m pip --version >/dev/null 2>&1; then
+        # Debian keeps ensurepip, without which a venv has no pip, in a package of its own.
+        "$python" -c 'import ensurepip, venv' 2>/dev/null ||
+            system_needs "$("$python" -c 'import sys; print("python{}.{}-venv".format(*sys.version_info))')"
+        say "making $1"
+        "$python" -m venv --clear "$1"
+    fi
+}
+
 python_ready() {
     command -v "$python" >/dev/null || fail "$python is missing; please run: sudo apt-get install -y python3"
     "$python" -c 'import sys; sys.exit(sys.version_info < (3, 11))' ||
         fail "$("$python" --version) is too old: 3.11 or later is needed (make PYTHON=python3.12 …)"
-    if ! "$venv/bin/python" -m pip --version >/dev/null 2>&1; then
-        # Debian keeps ensurepip, without which a venv has no pip, in a package of its own.
-        "$python" -c 'import ensurepip, venv' 2>/dev/null ||
-            system_needs "$("$python" -c 'import sys; print("python{}.{}-venv".format(*sys.version_info))')"
-        say "making $venv"
-        "$python" -m venv --clear "$venv"
-    fi
+    environment "$venv"
     say "installing the package and its tools into $venv (pip)"
     "$venv/bin/python" -m pip install --quiet --disable-pip-version-check --no-input --editable '.[dev]'
     # Cairo is the one library that no wheel brings along.
     "$venv/bin/python" -c 'import cairosvg' 2>/dev/null || system_needs libcairo2
     "$venv/bin/python" -c 'import cairosvg'
+}
+
+peer() { # where to, requirement: install it without what else it asks for, or note why not
+    local log missing=$peers/missing/${2%%==*}
+    log=$(mktemp)
+    if ! "$peers/bin/python" -m pip install --quiet --disable-pip-version-check --no-input --no-deps \
+        ${1:+--target "$1"} "$2" >"$log" 2>&1; then
+        say "$2 cannot be installed: the benchmarks leave it out"
+        grep -iE 'error' "$log" | tail -n 1 >"$missing" || echo "pip failed" >"$missing"
+    fi
+    rm -f "$log"
+}
+
+peers_ready() {
+    environment "$peers"
+    rm -rf "$peers/missing" "$peers/plug-ins"
+    mkdir -p "$peers/missing"
+    # pycairo has no wheels and is built; without it, its rows are left out.
+    if ! pkg-config --exists cairo 2>/dev/null; then
+        (system_needs gcc pkg-config libcairo2-dev python3-dev) || say "pycairo may not build"
+    fi
+    say "installing what the benchmarks are measured against into $peers (pip)"
+    local line folder=
+    while read -r line; do
+        case $line in
+        '# plug-ins'*) folder=$peers/plug-ins ;;
+        '' | '#'*) ;;
+        *) peer "$folder" "$line" ;;
+        esac
+    done <benchmarks/requirements.txt
+    "$peers/bin/python" -c 'import cairocffi' 2>/dev/null || (system_needs libcairo2) || say "cairosvg lacks cairo"
 }
 
 clients_ready() {
@@ -76,6 +113,7 @@ clients_ready() {
 
 case ${1:-} in
 python) python_ready ;;
+peers) peers_ready ;;
 clients) clients_ready ;;
-*) fail "usage: tools/setup.sh python|clients" ;;
+*) fail "usage: tools/setup.sh python|peers|clients" ;;
 esac

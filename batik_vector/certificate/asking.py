@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import functools
-from dataclasses import dataclass
 
 from batik_vector.tiling.groups import group
+from batik_vector.values import frozen
 
 _WITHIN = {
     "p1": "",
@@ -42,7 +42,7 @@ def contained(name: str) -> frozenset[str]:
     return frozenset(found)
 
 
-@dataclass(frozen=True)
+@frozen
 class Asked:
     """A symmetry group that a tile ought to have.
 

@@ -9,7 +9,6 @@ seam, or stops short of it.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,9 +19,10 @@ from batik_vector.certificate.seam import Seam, nearest_distance, traces
 from batik_vector.certificate.shifts import Events
 from batik_vector.tiling.seams import Intervals, joined, symmetric_difference
 from batik_vector.units import format_mm
+from batik_vector.values import frozen
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class Crossings:
     """What the borders of one ink do at one seam, in steps.
 

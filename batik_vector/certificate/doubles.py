@@ -12,8 +12,6 @@ that length count that a seam parts. Two lines close together along the seam are
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 import shapely
 from numpy.typing import NDArray
@@ -22,6 +20,7 @@ from batik_vector.artwork import Overlap
 from batik_vector.certificate.drawing import Edges, Frame, InkDrawing, repeats
 from batik_vector.certificate.report import Kind, Limits, SeamFault
 from batik_vector.units import format_mm
+from batik_vector.values import frozen
 
 LONG_MM = 5.0
 """A stretch this long (mm) does not run beside another because both curves happen to touch."""
@@ -38,7 +37,7 @@ MOST = 0.9
 Floats = NDArray[np.float64]
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class Shared:
     """Stretches that pairs of edges share: on edge ``one`` from ``low`` to ``high`` (steps from its begin).
 

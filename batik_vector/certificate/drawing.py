@@ -9,7 +9,7 @@ is taken to lie on that edge.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import fields
 
 import numpy as np
 import shapely
@@ -21,6 +21,7 @@ from batik_vector.errors import GeometryError
 from batik_vector.tiling.torus import Steps, Window, clip_areas, polygons_of, split_at
 from batik_vector.tiling.weld import meeting, welded
 from batik_vector.units import STEPS_PER_MM, on_grid
+from batik_vector.values import frozen
 
 SNAP = 0.002
 """How near (mm) to an edge of the page a vertex of a foreign file counts as lying on it: files keep two
@@ -37,7 +38,7 @@ Borders = frozenset[tuple[str, int, int, int]]
 """What runs or ends along the seam on purpose: see :class:`~batik_vector.artwork.Artwork`."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Frame:
     """The page and its lattice in steps; ``per_mm`` steps are a millimetre.
 
@@ -87,7 +88,7 @@ def _into(value: float, other: float, side: int, slip: int) -> tuple[float, floa
     return value - turns * side, other - turns * slip
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class Edges:
     """Directed straight edges in steps: from ``begin`` to ``end``, shape (n, 2), of line ``owner``.
 
@@ -120,7 +121,7 @@ def joined(parts: Sequence[Edges]) -> Edges:
     return Edges(*(np.concatenate([getattr(part, each.name) for part in parts]) for each in fields(Edges)))
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class InkDrawing:
     """What the page shows of one ink.
 
@@ -139,7 +140,7 @@ class InkDrawing:
     strokes: Edges
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class Drawing:
     """A tile as it is measured."""
 

@@ -6,8 +6,6 @@ the seams inside. Moved back onto the page piece by piece, it must be the tile a
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 import shapely
 from numpy.typing import NDArray
@@ -16,13 +14,14 @@ from batik_vector.artwork import Geometries
 from batik_vector.certificate.drawing import Frame
 from batik_vector.tiling.torus import Window, wrap
 from batik_vector.tiling.weld import welded
+from batik_vector.values import frozen
 
 GOLDEN = (5**0.5 - 1) / 2
 """Share of the height at which the field is cut elsewhere, and of the width, squared: no simple fraction
 of a tile, so that no symmetry of a drawing brings a seam onto the cut."""
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class Elsewhere:
     """One ink's field over the shifted ``box`` (steps), in which the seams lie inside.
 

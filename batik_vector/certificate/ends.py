@@ -8,8 +8,6 @@ the same; the artwork says where one does, by a border of no length.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -19,9 +17,10 @@ from batik_vector.certificate.seam import Seam
 from batik_vector.certificate.shifts import Events
 from batik_vector.tiling.torus import Steps
 from batik_vector.units import format_mm
+from batik_vector.values import frozen
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class LineEnds:
     """Where the lines of one ink meet one seam, in steps on the near edge.
 

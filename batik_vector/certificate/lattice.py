@@ -7,13 +7,14 @@ Crystallography, volume A (2016), §1.3.2.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
 from math import lcm
 
 import numpy as np
 from numpy.typing import NDArray
+
+from batik_vector.values import frozen
 
 Matrix = NDArray[np.float64]
 Whole = tuple[tuple[int, int], tuple[int, int]]
@@ -22,7 +23,7 @@ Whole = tuple[tuple[int, int], tuple[int, int]]
 IDENTITY: Whole = ((1, 0), (0, 1))
 
 
-@dataclass(frozen=True)
+@frozen
 class Turn:
     """A linear part that maps a lattice onto itself.
 

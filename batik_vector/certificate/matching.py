@@ -6,8 +6,6 @@ that carries the outline into itself carries it onto itself: its inverse is one 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 import shapely
 from numpy.typing import NDArray
@@ -15,6 +13,7 @@ from numpy.typing import NDArray
 from batik_vector.certificate.lattice import Matrix
 from batik_vector.certificate.nearest import Nearest, spread
 from batik_vector.certificate.outline import Edges, Indices, Points
+from batik_vector.values import frozen
 
 FEW = 600
 """Points, evenly strewn over the outline, by which an operation is placed and most false ones are refused."""
@@ -32,7 +31,7 @@ MEASURED = 256
 """Points beyond reach whose distance is worked out one by one where a failure is reported."""
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class Samples:
     """Points on the outline: ``xy`` (n, 2) in mm, ``kind`` (n,), ``heading`` (n, 2), zero on lines."""
 
@@ -44,7 +43,7 @@ class Samples:
         return Samples(self.xy[rows], self.kind[rows], self.heading[rows])
 
 
-@dataclass(frozen=True)
+@frozen
 class Fit:
     """How an operation fits: the ``share`` of the outline met, the ``worst`` distance (mm) if it holds."""
 

@@ -7,13 +7,13 @@ the nearest within a given reach, so a point has to look into its own bin alone.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from batik_vector.certificate.outline import Edges, Indices, Points
+from batik_vector.values import frozen
 
 Matrix = NDArray[np.float64]
 Numbers = NDArray[np.float64]
@@ -25,7 +25,7 @@ CHUNK = 100_000
 """Pairs of point and edge measured in one go, which keeps them in the processor's cache or near it."""
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class Feet:
     """For each point the nearest edge: ``distance`` (n,), inf where none is within reach.
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import enum
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from batik_vector.certificate.lattice import Matrix, Whole, determinant, order_of
 from batik_vector.certificate.naming import axis_of
+from batik_vector.values import frozen
 
 Vector = NDArray[np.float64]
 Pair = tuple[float, float]
@@ -24,7 +24,7 @@ class OperationKind(enum.StrEnum):
     GLIDE = "glide"
 
 
-@dataclass(frozen=True)
+@frozen
 class Operation:
     """One operation x → M x + t of a pattern, in mm on cloth.
 
@@ -52,7 +52,7 @@ class Operation:
         return f"{self.kind}{along} along {self.axis:.0f}° through {where}"
 
 
-@dataclass(frozen=True)
+@frozen
 class Miss:
     """An operation that nearly holds: ``share`` of the outline meets its image.
 
@@ -66,7 +66,7 @@ class Miss:
     ink: str
 
 
-@dataclass(frozen=True)
+@frozen
 class FoundGroup:
     """The wallpaper group of a pattern and how it was found.
 

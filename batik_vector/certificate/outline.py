@@ -8,7 +8,6 @@ sides is none and is left out, so that a pattern has the same outline wherever i
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 import shapely
@@ -28,6 +27,7 @@ from batik_vector.tiling.torus import (
 )
 from batik_vector.tiling.weld import welded
 from batik_vector.units import STEPS_PER_MM
+from batik_vector.values import frozen
 
 Points = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -40,7 +40,7 @@ SMOOTH_STEPS = 2.0
 """Grid steps by which an outline may be simplified: rounding leaves kinks of this size."""
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class Edges:
     """Straight edges in mm: ``begin`` and ``end`` of shape (n, 2), ``kind`` of shape (n,).
 
@@ -55,7 +55,7 @@ class Edges:
         return len(self.kind)
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class Outline:
     """What is drawn on the torus: ``edges`` of everything, and ``rings`` that close round the areas.
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 import enum
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, fields
 from typing import Any
 
 from batik_vector.errors import GeometryError
+from batik_vector.values import frozen
 
 Place = tuple[float, float]
 
@@ -39,7 +40,7 @@ class Kind(enum.StrEnum):
     """Ink is spread less evenly over columns or rows than was allowed."""
 
 
-@dataclass(frozen=True, kw_only=True)
+@frozen(kw_only=True)
 class Limits:
     """How much is allowed before a measure becomes a fault."""
 
@@ -66,7 +67,7 @@ class Limits:
                 raise GeometryError(f"{name} = {value}, expected a number from 0 on")
 
 
-@dataclass(frozen=True)
+@frozen
 class SeamFault:
     """One thing wrong with a tile.
 
@@ -81,7 +82,7 @@ class SeamFault:
     amount: float
 
 
-@dataclass(frozen=True, kw_only=True)
+@frozen(kw_only=True)
 class Measures:
     """What was measured of one ink, or of the whole tile: sums of counts and lengths, the worst of others.
 
@@ -121,7 +122,7 @@ def together(parts: Iterable[Measures]) -> Measures:
     return Measures(**values)
 
 
-@dataclass(frozen=True, kw_only=True)
+@frozen(kw_only=True)
 class Certificate:
     """The seam certificate of a tile: it passed if no fault was found.
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 import shapely
 from numpy.typing import NDArray
@@ -14,11 +12,12 @@ from batik_vector.certificate.report import Place
 from batik_vector.tiling import seams
 from batik_vector.tiling.seams import Intervals
 from batik_vector.units import format_mm
+from batik_vector.values import frozen
 
 EDGE_NAMES = (("left", "right"), ("lower", "upper"))
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class Seam:
     """One pair of opposite edges: ``near`` and ``far`` are their abscissa or ordinate in steps.
 
@@ -71,7 +70,7 @@ def traces(areas: Geometries, seam: Seam) -> tuple[Intervals, Intervals]:
     return here, there
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class Germs:
     """Edges that leave a seam to one of its sides, one item each.
 

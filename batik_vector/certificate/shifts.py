@@ -7,7 +7,6 @@ ends, a line). The shift is looked for among the differences of events of one so
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
@@ -16,6 +15,7 @@ from numpy.typing import NDArray
 from batik_vector.certificate.report import Kind, SeamFault
 from batik_vector.certificate.seam import EDGE_NAMES, Seam
 from batik_vector.units import format_mm
+from batik_vector.values import frozen
 
 AGREE_MM = 0.002
 """How near (mm) events must come to agree."""
@@ -36,7 +36,7 @@ LARGEST_DENOMINATOR = 60
 """Of the drops p/q that a recipe may ask for."""
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class Events:
     """What meets an edge: where (steps, on the near edge's circle), and of which sort."""
 

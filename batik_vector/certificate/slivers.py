@@ -7,7 +7,7 @@ are looked for in the welded field, where a mark that reaches over the seam by a
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import shapely
@@ -18,6 +18,7 @@ from batik_vector.certificate.elsewhere import Elsewhere
 from batik_vector.certificate.report import Kind, Limits, SeamFault
 from batik_vector.certificate.seam import EDGE_NAMES
 from batik_vector.units import format_mm
+from batik_vector.values import frozen
 
 Floats = NDArray[np.float64]
 
@@ -36,7 +37,7 @@ ALIKE_MM = 0.002
 WORDS = {"slit": "a slit of bare ground", "strip": "a strip of ink", "lines": "two lines side by side"}
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class Along:
     """Edges that run along an axis: ``at`` their place across it (mean), ``low`` to ``high`` along it.
 
@@ -49,7 +50,7 @@ class Along:
     side: NDArray[np.int64]
 
 
-@dataclass(frozen=True)
+@frozen
 class Sliver:
     """A sliver in steps: across ``axis`` from ``first`` to ``last``, along it from ``low`` to ``high``."""
 

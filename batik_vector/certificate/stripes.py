@@ -6,14 +6,13 @@ the length after which a stripe closes on the tile's torus, and so it is drawn a
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
 from batik_vector.certificate.lattice import Matrix, reduced
 from batik_vector.certificate.operations import Pair, pair
 from batik_vector.certificate.outline import Edges, Indices, Outline, Points, together
+from batik_vector.values import frozen
 
 FARTHEST = 24
 """How many cells, across and up, a stripe may climb before it comes back to itself."""
@@ -21,7 +20,7 @@ FARTHEST = 24
 Numbers = NDArray[np.float64]
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class Stripes:
     """Stripes along the unit vector ``way``, drawn on the right-angled lattice ``basis`` (columns, mm)."""
 

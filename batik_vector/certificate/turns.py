@@ -18,14 +18,13 @@ turns of a coarsely sampled curve cannot be told from them.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
 from batik_vector.certificate.drawing import InkDrawing
 from batik_vector.certificate.report import Kind, Limits, SeamFault
 from batik_vector.certificate.seam import Germs, Seam, germs
+from batik_vector.values import frozen
 
 NOISE_MM = 0.002
 """How far rounding to the 1 µm grid, and cutting on it, may move one end of an edge against the other."""
@@ -39,7 +38,7 @@ CORNER = 10.0
 Floats = NDArray[np.float64]
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class Turns:
     """The turns of one ink at one seam, one item per crossing.
 

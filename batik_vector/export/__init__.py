@@ -13,7 +13,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
 from types import MappingProxyType
@@ -31,6 +30,7 @@ from batik_vector.export.options import (
     Profile,
     SvgOptions,
 )
+from batik_vector.values import frozen
 
 if TYPE_CHECKING:
     from batik_vector.artwork import Page
@@ -55,7 +55,7 @@ __all__ = [
 ]
 
 
-@dataclass(frozen=True)
+@frozen
 class Format:
     """One kind of file: its suffix, its options, one line of help, and the module that writes it.
 

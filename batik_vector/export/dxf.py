@@ -18,11 +18,23 @@ from pathlib import Path
 from typing import BinaryIO
 
 import numpy as np
-from numpy.typing import NDArray
 
 from batik_vector.artwork import Ink, Page
 from batik_vector.errors import UnsupportedByFormatError
-from batik_vector.export.numbers import WORD, Style, Words, beside, digit_words, digits, headed, put, word
+from batik_vector.export.numbers import (
+    WORD,
+    Characters,
+    Room,
+    Style,
+    Words,
+    beside,
+    digits,
+    hexadecimals,
+    room_for,
+    spelling,
+    text,
+    word,
+)
 from batik_vector.export.options import DxfOptions, DxfVersion
 from batik_vector.export.palette import distinct_aci, dxf_names
 from batik_vector.export.provenance import ascii_chunks
@@ -136,19 +148,17 @@ class _DxfSurface:
 
     def _polylines(self, outlines: Outlines) -> bytes:
         count = len(outlines.closed)
-        handles = digits(np.arange(self._handle - count, self._handle), base=16)
         heads = beside(
             count,
-            b"0\nLWPOLYLINE\n5\n",
-            handles,
+            b"\n0\nLWPOLYLINE\n5\n",
+            hexadecimals(np.arange(self._handle - count, self._handle)),
             # 17 is the model space's block record, which owns every entity.
             b"\n330\n17\n100\nAcDbEntity\n8\n%b\n100\nAcDbPolyline\n90\n" % self._name,
             digits(np.diff(outlines.rings)),
             b"\n70\n",
             _flags(outlines),
-            b"\n",
         )
-        return headed(heads, _vertices(outlines, b"", b""), outlines.rings)
+        return _entities(outlines, heads, b"\n10\n", b"", b"\n")
 
     def _values(self) -> dict[str, str]:
         cell, margins = self._page.cell, self._page.margins
@@ -189,17 +199,16 @@ class _R12Surface(_DxfSurface):
         )
 
     def _polylines(self, outlines: Outlines) -> bytes:
-        layer = b"8\n%b\n" % self._name
+        layer = b"\n8\n%b" % self._name
         count = len(outlines.closed)
-        seqend = b"0\nSEQEND\n" + layer
+        seqend = b"\n0\nSEQEND" + layer
         ends = beside(count, seqend)
         # A head ends the polyline before it, so that all rows between two heads are vertices.
         ends[0] = 0
-        start = b"0\nPOLYLINE\n" + layer + b"66\n1\n70\n"
-        heads = beside(count, ends, start, _flags(outlines), b"\n10\n0.0\n20\n0.0\n30\n0.0\n")
-        return (
-            headed(heads, _vertices(outlines, b"0\nVERTEX\n" + layer, b"30\n0.0\n"), outlines.rings) + seqend
-        )
+        start = b"\n0\nPOLYLINE" + layer + b"\n66\n1\n70\n"
+        heads = beside(count, ends, start, _flags(outlines), b"\n10\n0.0\n20\n0.0\n30\n0.0")
+        vertex = b"\n0\nVERTEX" + layer + b"\n10\n"
+        return _entities(outlines, heads, vertex, b"\n30\n0.0", seqend + b"\n")
 
     def _provenance(self) -> dict[str, str]:
         provenance = self._page.provenance
@@ -209,21 +218,38 @@ class _R12Surface(_DxfSurface):
         return {"PROVENANCE": "\n".join(f"1000\n{chunk}" for chunk in chunks)}
 
 
-def _flags(outlines: Outlines) -> NDArray[np.uint8]:
+def _flags(outlines: Outlines) -> Characters:
     """Return the polylines' flags as a column of characters: 1 is closed."""
     return np.where(outlines.closed, np.uint8(ord("1")), np.uint8(ord("0")))[:, None]
 
 
-def _vertices(outlines: Outlines, before: bytes, after: bytes) -> Words:
-    """Return one row for each vertex: its coordinates, between what stands around them."""
-    points = outlines.points
-    size = digit_words(points)
-    head, tail = beside(1, before).view(WORD), beside(1, b"\n" + after).view(WORD)
-    middle = head.shape[1] + 1 + size
-    rows: Words = np.zeros((len(points), middle + 2 + size + tail.shape[1]), WORD)
-    rows[:, : head.shape[1]] = head
-    put(rows, head.shape[1], points[:, 0], Style.REAL, size, word("10\n"))
+def _entities(outlines: Outlines, heads: Characters, vertex: bytes, after: bytes, end: bytes) -> bytes:
+    """Return a head and its vertices for each contour, each line begun by its line feed.
+
+    Args:
+        outlines: the contours.
+        heads: what stands before the vertices of each, shape (contours, h); the first begins the text.
+        vertex: what stands before the abscissa of each vertex.
+        after: what stands behind its ordinate.
+        end: what ends the last contour.
+    """
+    spelled = spelling(outlines.points, Style.REAL)
+    before, behind = (_padded(part) for part in (vertex, after))
+    middle = len(before) + spelled.words
+    width = middle + 1 + spelled.words + len(behind)
+    count = len(heads)
+    layout = Room(outlines.rings, np.full(count, room_for(heads.shape[1], width)))
+    points = outlines.points.take(layout.source, axis=0)
+    rows: Words = np.empty((len(points), width), WORD)
+    rows[:, : len(before)] = before
+    spelled.put(rows, len(before), points[:, 0])
     rows[:, middle] = word("\n20\n")
-    put(rows, middle + 1, points[:, 1], Style.REAL, size, word("\0"))
-    rows[:, middle + 2 + size :] = tail
-    return rows
+    spelled.put(rows, middle + 1, points[:, 1])
+    rows[:, width - len(behind) :] = behind
+    layout.put(rows, np.arange(count), heads)
+    return text(rows)[1:] + end
+
+
+def _padded(part: bytes) -> Words:
+    """Return characters as words."""
+    return np.frombuffer(part + bytes(-len(part) % 4), WORD)

@@ -11,7 +11,6 @@ from __future__ import annotations
 import contextlib
 import io
 import os
-import secrets
 import stat
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
@@ -148,7 +147,7 @@ class _Raw(io.RawIOBase):
 
 
 def _neighbour(path: Path) -> Path:
-    return path.with_name(f".batik-{secrets.token_hex(8)}.tmp")
+    return path.with_name(f".batik-{os.urandom(8).hex()}.tmp")
 
 
 def _write(handle: int, data: bytes) -> None:

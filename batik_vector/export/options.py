@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import dataclasses
 import enum
-from dataclasses import dataclass
 from typing import Annotated, Any
 
 from batik_vector.errors import UnknownNameError
 from batik_vector.fields import Between, Length, Says, check
+from batik_vector.values import frozen
 
 
 class Profile(enum.StrEnum):
@@ -70,7 +70,7 @@ def _settle(options: Any) -> None:
     check(options)
 
 
-@dataclass(frozen=True)
+@frozen
 class SvgOptions:
     """Options of SVG."""
 
@@ -89,7 +89,7 @@ class SvgOptions:
         _settle(self)
 
 
-@dataclass(frozen=True)
+@frozen
 class PdfOptions:
     """Options of PDF."""
 
@@ -110,7 +110,7 @@ class PdfOptions:
         _settle(self)
 
 
-@dataclass(frozen=True)
+@frozen
 class DxfOptions:
     """Options of DXF."""
 
@@ -120,7 +120,7 @@ class DxfOptions:
         _settle(self)
 
 
-@dataclass(frozen=True)
+@frozen
 class PngOptions:
     """Options of the PNG preview."""
 

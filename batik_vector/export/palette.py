@@ -60,72 +60,6 @@ def ascii_name(name: str) -> str:
     return unicodedata.normalize("NFKD", name).encode("ascii", "ignore").decode("ascii")
 
 
-class Ids:
-    """Gives out ids of letters and digits, each once: ``wax``, ``wax2``; for marks ``petal1``, ``petal2``.
-
-    Millions may be given out: of the numbered ones only the last of each row is remembered.
-    """
-
-    def __init__(self) -> None:
-        self._singles: set[str] = set()
-        self._counts: dict[str, int] = {}
-        self._stems: dict[tuple[str, str], str] = {}
-        self._rivals: dict[str, list[str]] = {}
-
-    def one(self, name: str, fallback: str) -> str:
-        """Return an id for a thing that is there once."""
-        stem = self._stem(name, fallback)
-        if self._taken(stem, self._counts):
-            return self.next(name, fallback)
-        self._singles.add(stem)
-        self._rivals.clear()
-        return stem
-
-    def next(self, name: str, fallback: str) -> str:
-        """Return the next id in the row of a name."""
-        stem = self._stems.get((name, fallback))
-        if stem is None:
-            stem = self._stems[name, fallback] = self._stem(name, fallback)
-        if stem not in self._counts:
-            self._counts[stem] = 0
-            self._rivals.clear()
-        rivals = self._rivals.get(stem)
-        if rivals is None:
-            rivals = self._rivals[stem] = self._rivals_of(stem)
-        number = self._counts[stem] + 1
-        while rivals and self._taken(f"{stem}{number}", rivals):
-            number += 1
-        self._counts[stem] = number
-        return f"{stem}{number}"
-
-    def _rivals_of(self, stem: str) -> list[str]:
-        """Return the stems and single ids whose ids may look like this row's."""
-        known = [each for each in (*self._counts, *sorted(self._singles)) if each != stem]
-        return [
-            each
-            for each in known
-            if (each.startswith(stem) and each[len(stem) :].isdigit())
-            or (stem.startswith(each) and stem[len(each) :].isdigit())
-        ]
-
-    def _taken(self, new: str, stems: Iterable[str]) -> bool:
-        """Return whether an id was given out, singly or in one of these rows."""
-        if new in self._singles:
-            return True
-        for stem in stems:
-            number = new[len(stem) :] if new.startswith(stem) else ""
-            if number.isdigit() and number[0] != "0" and int(number) <= self._counts.get(stem, 0):
-                return True
-        return False
-
-    @staticmethod
-    def _stem(name: str, fallback: str) -> str:
-        """Join the words of a name as petalTip; an id may not begin with a digit."""
-        words = re.findall(r"[A-Za-z0-9]+", ascii_name(name))
-        stem = "".join(word if i == 0 else word[0].upper() + word[1:] for i, word in enumerate(words))
-        return stem if stem[:1].isalpha() else f"{fallback}{stem}"
-
-
 def dxf_names(names: Iterable[str], longest: int = 31) -> list[str]:
     """Return layer names of A-Z, 0-9, ``_`` and ``-``, unique, never those DXF keeps for itself."""
     given = {"0", "DEFPOINTS", ""}
@@ -142,7 +76,8 @@ def dxf_names(names: Iterable[str], longest: int = 31) -> list[str]:
     return out
 
 
-_NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+_NOT_XML = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
+"""What XML's Char leaves out. To compile Char itself, as the standard has it, takes ten times as long."""
 
 
 def xml_safe(text: str) -> bool:

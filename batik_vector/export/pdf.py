@@ -21,11 +21,11 @@ from xml.sax.saxutils import escape
 import numpy as np
 
 from batik_vector.artwork import Ink, Page, Plate
-from batik_vector.export.numbers import WORD, Style, Words, digit_words, put, text, word
+from batik_vector.export.numbers import WORD, Room, Style, Words, room_for, spelling, text, word
 from batik_vector.export.options import Curves, PdfInks, PdfOptions
 from batik_vector.export.palette import rgb, xml_label
 from batik_vector.export.provenance import NAMESPACE, xml_fields
-from batik_vector.export.strokes import CONTROL, CURVE, LINE, MOVE, PULL, Strokes, strokes, trim_of
+from batik_vector.export.strokes import CONTROL, LINE, MOVE, Strokes, strokes, trim_of
 from batik_vector.export.walk import Outlines, walk
 from batik_vector.units import STEPS_PER_MM
 
@@ -39,6 +39,8 @@ BLOCK = 1 << 20
 HELD_BACK = 1 << 24
 """Compressed bytes up to which a content stream is kept until its length is known; a longer one is written as
 it comes, and its length behind it."""
+OPERATORS: Words = np.array([word(letters) for letters in ("m\n", "l\n", "", "", "c\n")], WORD)
+"""What stands behind a point of each kind, in the order of the kinds."""
 CONTENT = 4
 """Number of the content stream's object."""
 
@@ -80,17 +82,22 @@ def path_operators(drawn: Strokes, paint: str, unfinished: bool = False) -> byte
         unfinished: the last mark goes on, and is not painted yet.
     """
     points = drawn.points
-    size = digit_words(points)
-    rows: Words = np.zeros((len(points), 2 * (1 + size) + 2), WORD)
-    at = put(rows, 0, points[:, 0], Style.STEPS, size, word("\0"))
-    at = put(rows, at, points[:, 1], Style.STEPS, size, word("\0"))
-    letters = np.zeros(5, WORD)
-    letters[[MOVE, LINE, CONTROL, PULL, CURVE]] = [word(c) for c in ("m\n", "l\n", "\0", "\0", "c\n")]
-    rows[:, at] = letters[drawn.kinds]
-    rows[drawn.last[drawn.closed], at] += word("\0\0h\n")
-    painted = drawn.marks[1:-1] if unfinished else drawn.marks[1:]
-    rows[drawn.last[painted - 1], at + 1] = word(f"{paint}\n")
-    return text(rows)
+    spelled = spelling(points, Style.STEPS)
+    width = 2 * spelled.words + 1
+    painting = np.frombuffer(f"{paint}\n".encode("ascii"), np.uint8)
+    room = np.zeros(len(drawn.closed), np.int64)
+    begin = drawn.marks[1:-1]
+    room[begin] = room_for(len(painting), width)
+    layout = Room(drawn.rings, room)
+    points = points.take(layout.source, axis=0)
+    rows: Words = np.empty((len(points), width), WORD)
+    spelled.put(rows, spelled.put(rows, 0, points[:, 0]), points[:, 1])
+    curved = (drawn.kinds >= CONTROL).any()
+    rows[:, -1] = OPERATORS.take(drawn.kinds.take(layout.source)) if curved else OPERATORS[LINE]
+    rows[layout.first, -1] = OPERATORS[MOVE]
+    rows[layout.last[drawn.closed], -1] += word("\0\0h\n")
+    layout.put(rows, begin, np.repeat(painting[None], len(begin), axis=0))
+    return text(rows) + (b"" if unfinished else painting.tobytes())
 
 
 class _File:
@@ -138,16 +145,21 @@ class _Stream:
     def __init__(self, file: _File, length_number: int) -> None:
         self._file, self._length_number = file, length_number
         self._machine = zlib.compressobj(COMPRESSION)
-        self._raw = bytearray()
+        self._raw: list[bytes] = []
+        self._waiting = 0
         self._held: list[bytes] = []
         self._length = 0
         self._written = False
 
     def put(self, data: bytes) -> None:
-        self._raw += data
-        while len(self._raw) >= BLOCK:
-            self._keep(self._machine.compress(bytes(self._raw[:BLOCK])))
-            del self._raw[:BLOCK]
+        self._raw.append(data)
+        self._waiting += len(data)
+        if self._waiting >= BLOCK:
+            raw = b"".join(self._raw)
+            whole = len(raw) // BLOCK * BLOCK
+            for at in range(0, whole, BLOCK):
+                self._keep(self._machine.compress(memoryview(raw)[at : at + BLOCK]))
+            self._raw, self._waiting = [raw[whole:]], len(raw) - whole
 
     def _keep(self, packed: bytes) -> None:
         self._length += len(packed)
@@ -169,7 +181,7 @@ class _Stream:
 
     def end(self) -> bool:
         """Close the stream; return whether its length is still to be written, as an object of its own."""
-        self._keep(self._machine.compress(bytes(self._raw)) + self._machine.flush())
+        self._keep(self._machine.compress(b"".join(self._raw)) + self._machine.flush())
         behind = self._written
         if not behind:
             self._head(b"%d" % self._length)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
@@ -11,6 +10,7 @@ from numpy.typing import NDArray
 from batik_vector.artwork import Page
 from batik_vector.outlines import Offsets, Outlines, Steps
 from batik_vector.units import STEPS_PER_MM
+from batik_vector.values import frozen
 
 Trim: TypeAlias = tuple[int, int, int, int]
 """Left, lower, right and upper edge of the trimmed page, in the steps of the outlines."""
@@ -25,7 +25,7 @@ def trim_of(page: Page, below: int) -> Trim:
     return left, below, left + cell.columns, below + cell.rows
 
 
-@dataclass(frozen=True)
+@frozen
 class Strokes:
     """Points in drawing order, each with what it is; offsets as in :class:`Outlines`, over these points."""
 

@@ -14,7 +14,7 @@ from __future__ import annotations
 import io
 import re
 import xml.etree.ElementTree as ET
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from typing import Any, BinaryIO
 
@@ -22,12 +22,27 @@ import numpy as np
 from numpy.typing import NDArray
 
 from batik_vector.artwork import Ink, Overlap, Page, Plate
-from batik_vector.export.numbers import WORD, Style, Words, digit_words, put, text, word
+from batik_vector.export import lean
+from batik_vector.export.ids import Ids
+from batik_vector.export.numbers import (
+    WORD,
+    Characters,
+    Room,
+    Style,
+    Words,
+    beside,
+    digits,
+    lead,
+    room_for,
+    spelling,
+    text,
+)
 from batik_vector.export.options import Curves, Profile, SvgOptions
-from batik_vector.export.palette import Ids, hex_colour, xml_label
+from batik_vector.export.palette import hex_colour, xml_label
 from batik_vector.export.provenance import NAMESPACE, xml_fields
 from batik_vector.export.strokes import CONTROL, CURVE, LINE, MOVE, Strokes, strokes, trim_of
 from batik_vector.export.walk import Outlines, walk
+from batik_vector.outlines import Index
 from batik_vector.units import STEPS_PER_MM, format_mm
 
 INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"
@@ -40,7 +55,8 @@ refuses an attribute longer than 10 million."""
 PLACE = "\0"
 """Stands on both sides of the name of a place; XML cannot hold it, so nothing else of a page does."""
 HOLE = "place"
-PATH = '<path d="'
+PATH = b'<path d="'
+END = b'" />\n'
 NAMED_VIEW = {"id": "namedview", "inkscape:document-units": "mm", "units": "mm"}
 """Tells Inkscape to show millimetres on its rulers."""
 
@@ -68,38 +84,46 @@ def svg_text(page: Page, options: SvgOptions = DEFAULTS) -> str:
     return render(page, options).decode("utf-8")
 
 
-def path_data(drawn: Strokes, split: bool) -> list[str]:
+def path_data(drawn: Strokes, between: Characters | None = None) -> bytes:
     """Return strokes in the path language, coordinates in mm, y as it is.
 
     Args:
         drawn: the strokes, in steps.
-        split: one text for each mark, or else one for all of them.
+        between: what stands between each mark and the next, shape (marks - 1, h), if anything does.
     """
     points = drawn.points
     if not len(points):
-        return []
-    size = digit_words(points)
-    rows: Words = np.zeros((len(points), 2 * (1 + size)), WORD)
-    at = put(rows, 0, points[:, 0], Style.SHORT, size, _leads(drawn, split))
-    put(rows, at, points[:, 1], Style.SHORT, size, word(" "))
-    end = b"Z" if drawn.closed[-1] else b""
-    data = (text(rows) + end).decode("ascii")
-    return data.split("\n") if split else [data]
+        return b""
+    spelled = spelling(points, Style.SHORT, " ")
+    width = 2 * spelled.words
+    shut = drawn.closed[:-1] * np.uint8(ord("Z"))
+    room = np.concatenate([[0], drawn.closed[:-1]]).astype(np.int64)
+    begin = drawn.marks[1:-1] if between is not None else drawn.marks[:0]
+    if between is not None:
+        between = beside(len(begin), shut[begin - 1, None], between)
+        room[begin] = room_for(between.shape[1], width)
+    layout = Room(drawn.rings, room)
+    points = points.take(layout.source, axis=0)
+    rows: Words = np.empty((len(points), width), WORD)
+    spelled.put(rows, spelled.put(rows, 0, points[:, 0]), points[:, 1])
+    for which, command in _commands(drawn):
+        lead(rows, layout.row_of(which), command)
+    if between is not None:
+        layout.put(rows, begin, between)
+        room[begin] = 0
+    inner = np.flatnonzero(room)
+    layout.put(rows, inner, shut[inner - 1, None])
+    return text(rows) + (b"Z" if drawn.closed[-1] else b"")
 
 
-def _leads(drawn: Strokes, split: bool) -> Words:
-    """Return what stands before each point: its command where that is not understood, else a space."""
+def _commands(drawn: Strokes) -> Iterator[tuple[Index, str]]:
+    """Yield the commands that are not understood, each with the points that it stands before."""
+    yield drawn.first, "M"
     kinds = drawn.kinds
-    before = np.r_[np.uint8(MOVE), kinds[:-1]]
-    leads = np.full(len(kinds), word(" "), WORD)
-    leads[(kinds == LINE) & (before == CURVE)] = word("L")
-    leads[(kinds == CONTROL) & (before != CURVE)] = word("C")
-    shut = np.r_[False, drawn.closed[:-1]] * word("Z")
-    parted = np.zeros(len(shut), WORD)
-    if split:
-        parted[drawn.marks[1:-1]] = word("\0\n")
-    leads[drawn.first] = shut + parted + word("\0\0M")
-    return leads
+    if (kinds >= CONTROL).any():
+        before = np.concatenate([[MOVE], kinds[:-1]])
+        yield np.flatnonzero((kinds == LINE) & (before == CURVE)), "L"
+        yield np.flatnonzero((kinds == CONTROL) & (before != CURVE)), "C"
 
 
 class _SvgSurface:
@@ -120,7 +144,7 @@ class _SvgSurface:
         self._furniture = iter(furniture(page, self._options).split(PLACE))
         self._number = -1
         self._kind = ""
-        self._path_end = ""
+        self._path_end = b""
         if self._options.cloth:
             self._id("cloth", "cloth")
 
@@ -137,21 +161,22 @@ class _SvgSurface:
     def end(self) -> None:
         self._go_to("")
 
-    def _put(self, words: str) -> None:
-        self._sink.write(words.encode("utf-8"))
-
     def _go_to(self, place: str) -> None:
         """Write furniture up to a place, or to its end; what is passed stays empty."""
-        self._put(self._path_end)
-        self._path_end = ""
+        self._close()
         for words in self._furniture:
-            self._put(words)
+            self._sink.write(words.encode("utf-8"))
             if next(self._furniture, None) == place:
                 return
 
+    def _close(self) -> None:
+        """Write the end of the path that is open, if one is."""
+        self._sink.write(self._path_end)
+        self._path_end = b""
+
     def _id(self, name: str, fallback: str) -> None:
         self._go_to(f"id {self._number}")
-        self._put(self._ids.one(name, fallback))
+        self._sink.write(self._ids.one(name, fallback).encode("ascii"))
         self._kind = ""
 
     def _draw(self, kind: str, outlines: Outlines) -> None:
@@ -159,26 +184,34 @@ class _SvgSurface:
             self._go_to(f"{kind} {self._number}")
             self._kind, self._points, self._unfinished = kind, 0, False
         margins = self._page.margins
-        flipped = outlines.moved(margins.left, margins.bottom).flipped(self._rows)
+        flipped = outlines.flipped(self._rows - margins.bottom, margins.left)
         drawn = strokes(flipped, self._tolerance, trim_of(self._page, margins.top))
         if self._compact:
             self._write_blocks(drawn, outlines.unfinished)
         else:
-            self._write_paths(path_data(drawn, split=True), outlines.names)
+            self._write_paths(drawn, outlines.names, outlines.unfinished)
         self._unfinished = outlines.unfinished
-        if not self._compact and not self._unfinished:
-            self._put(self._path_end)
-            self._path_end = ""
 
-    def _write_paths(self, data: list[str], names: Sequence[str]) -> None:
-        """Write a path for each mark; the last is left open, for an unfinished one has a rest."""
-        ends = [f'" id="{self._ids.next(name, "mark")}" />\n' for name in names[self._unfinished :]]
-        starts = [PATH] * len(data)
+    def _write_paths(self, drawn: Strokes, names: Sequence[str], unfinished: bool) -> None:
+        """Write a path for each mark; the last is left open where it is unfinished."""
         if self._unfinished:
-            starts[0] = ""
-            ends.insert(0, self._path_end)
-        self._path_end, ends[-1] = ends[-1], ""
-        self._put("".join(part for path in zip(starts, data, ends, strict=True) for part in path))
+            self._sink.write(path_data(_some(drawn, 0, 1)))
+            drawn, names = _some(drawn, 1, len(drawn.marks) - 1), names[1:]
+        if len(names):
+            self._close()
+            ends = self._ends(names)
+            data = path_data(drawn, between=beside(len(names) - 1, ends[:-1], PATH))
+            self._sink.write(PATH + data)
+            self._path_end = text(ends[-1:])
+        if not unfinished:
+            self._close()
+
+    def _ends(self, names: Sequence[str]) -> Characters:
+        """Return the ends of paths, with their ids."""
+        stems, which, numbers = self._ids.many(names, "mark")
+        written = np.array([stem.encode("ascii") for stem in stems])
+        of_each = written.view(np.uint8).reshape(len(stems), -1).take(which, axis=0)
+        return beside(len(names), b'" id="', of_each, digits(numbers), END)
 
     def _write_blocks(self, drawn: Strokes, unfinished: bool) -> None:
         """Write paths of many marks each; the last is left open, for more marks may come."""
@@ -190,9 +223,10 @@ class _SvgSurface:
         cuts = np.flatnonzero(fresh).tolist()
         for first, last in pairwise(sorted({0, *cuts, len(fresh)})):
             if fresh[first]:
-                self._put(self._path_end + PATH)
-                self._path_end = '" />\n'
-            self._put(path_data(_some(drawn, first, last), split=False)[0])
+                self._close()
+                self._sink.write(PATH)
+                self._path_end = END
+            self._sink.write(path_data(_some(drawn, first, last)))
         self._points += len(drawn.points)
 
 
@@ -225,12 +259,10 @@ def furniture(page: Page, options: SvgOptions) -> str:
 
     The places are ``id N`` (the id of layer N, -1 for the cloth), ``areas N`` and ``lines N`` (its paths).
     """
-    import svgwrite
-
     margins = page.margins
     width = format_mm((page.cell.columns + margins.left + margins.right) / STEPS_PER_MM)
     height = format_mm((page.cell.rows + margins.bottom + margins.top) / STEPS_PER_MM)
-    drawing = svgwrite.Drawing(
+    drawing = lean.svgwrite().Drawing(
         size=(f"{width}mm", f"{height}mm"), viewBox=f"0 0 {width} {height}", debug=False
     )
     drawing["xmlns:inkscape"] = INKSCAPE

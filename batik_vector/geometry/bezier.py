@@ -16,8 +16,6 @@ Inside, points are complex numbers: a dot product is ``(a.conjugate() * b).real`
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from batik_vector.errors import GeometryError
@@ -35,6 +33,7 @@ from batik_vector.geometry.stretches import (
     smooth_runs,
     stretches,
 )
+from batik_vector.values import frozen
 
 SPAN_TURN = 2.6
 """No cubic is planned to turn by more (radians), though one that fits may."""
@@ -63,7 +62,7 @@ BLOCK = 16384
 """How many data are fitted at a time: what a processor's cache holds."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Cubics:
     """Cubic Béziers of several paths, in drawing order.
 

@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cached_property
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from batik_vector.geometry.maps.affine import SIMILAR, Affine
+from batik_vector.geometry.maps.affines import Affines
 from batik_vector.geometry.sampling import Array, Geometries, Indices
 
 
 def distinct(
     transforms: Sequence[Affine], motif: Geometries | Sequence[Geometries], tolerance: float
-) -> list[Affine]:
+) -> Affines:
     """Return the transforms that draw something no earlier one has drawn, in their order.
 
     Two copies coincide when the map between them is a symmetry of the motif: an eight-fold flower
@@ -25,63 +28,77 @@ def distinct(
             on itself.
         tolerance: in the motif's units: how far the motif's edges may stand from the true curves.
     """
+    maps = Affines.of(transforms)
     groups = [motif] if isinstance(motif, np.ndarray) else list(motif)
-    symmetry = _Symmetry([np.asarray(group, dtype=object) for group in groups], tolerance)
-    if symmetry.centre is None or len(transforms) < 2:
-        return list(transforms)
-    rows = np.array([each.row for each in transforms])
-    centre = symmetry.centre
-    places = np.column_stack([rows[:, :2] @ centre + rows[:, 4], rows[:, 2:4] @ centre + rows[:, 5]])
-    near = _earlier_neighbours(places, tolerance * np.abs(rows[:, :4]).max(axis=1))
-    kept: list[bool] = []
-    for i, others in enumerate(near):
-        kept.append(not any(kept[j] and symmetry.holds(rows[j], rows[i]) for j in others))
-    return [each for each, keep in zip(transforms, kept, strict=True) if keep]
+    if len(maps) < 2 or not any(len(group) for group in groups):
+        return maps
+    if maps.are_translates:
+        # No two of them differ by a symmetry, unless they are the same.
+        later, earlier = _meeting(maps.shifts, maps, tolerance)
+        alike = np.ones(len(later), bool)
+    else:
+        symmetry = _Symmetry([np.asarray(group, dtype=object) for group in groups], tolerance)
+        later, earlier = _meeting(maps.at(symmetry.centre[None])[:, 0], maps, tolerance)
+        alike = symmetry.hold(maps.linear[earlier], maps.linear[later])
+    kept = np.ones(len(maps), bool)
+    for i, j in zip(later[alike].tolist(), earlier[alike].tolist(), strict=True):
+        kept[i] &= not kept[j]
+    return maps.taken(kept)
 
 
-def _earlier_neighbours(places: Array, reach: Array) -> list[list[int]]:
-    """Return, for each place, the earlier ones within its reach."""
+def _meeting(places: Array, maps: Affines, tolerance: float) -> tuple[Indices, Indices]:
+    """Return the pairs (later, earlier) of copies whose places all but coincide, in the order of both."""
     points = _points(places)
-    query, found = shapely.STRtree(points).query(points, predicate="dwithin", distance=reach)
-    earlier = found < query
-    near: list[list[int]] = [[] for _ in range(len(places))]
-    order = np.lexsort((found[earlier], query[earlier]))
-    for i, j in zip(query[earlier][order].tolist(), found[earlier][order].tolist(), strict=True):
-        near[i].append(j)
-    return near
+    reach = tolerance * np.abs(maps.linear).max(axis=1)
+    later, earlier = shapely.STRtree(points).query(points, predicate="dwithin", distance=reach)
+    pairs = earlier < later
+    later, earlier = later[pairs], earlier[pairs]
+    order = np.lexsort((earlier, later))
+    return later[order], earlier[order]
 
 
 class _Symmetry:
     """Answers whether a linear map about the motif's centre brings it onto itself."""
 
     def __init__(self, groups: list[Geometries], tolerance: float) -> None:
-        self.tolerance = tolerance
-        self.known: dict[tuple[int, ...], bool] = {}
-        groups = [group for group in groups if len(group)]
-        self.parts = [
-            part for group in groups for area in (True, False) if len(part := group[_areal(group) == area])
-        ]
-        self.centre: Array | None = None
-        self.trees: list[tuple[shapely.STRtree, Geometries]] | None = None
-        if self.parts:
-            hull = shapely.convex_hull(shapely.GeometryCollection(np.concatenate(self.parts).tolist()))
-            self.centre = shapely.get_coordinates(shapely.centroid(hull))[0]
+        self.groups, self.tolerance = groups, tolerance
+        hull = shapely.convex_hull(shapely.geometrycollections(np.concatenate(groups)))
+        self.centre: Array = shapely.get_coordinates(shapely.centroid(hull))[0]
 
-    def holds(self, one: Array, other: Array) -> bool:
-        """Whether two copies, given as rows of an affine map over the same place, draw the same."""
-        first, second = one[:4].reshape(2, 2), other[:4].reshape(2, 2)
-        relative: Array = np.asarray(np.linalg.solve(first, second), np.float64)
-        if abs(abs(np.linalg.det(relative)) - 1) > 1e-6:
-            return False
-        key = tuple(np.round(relative.ravel() * 1e7).astype(int).tolist())
-        if key not in self.known:
-            self.known[key] = self._test(relative)
-        return self.known[key]
+    @cached_property
+    def parts(self) -> list[Geometries]:
+        """The areas and the lines of each group."""
+        both = [(group, _areal(group)) for group in self.groups]
+        parts = [part for group, areal in both for part in (group[areal], group[~areal])]
+        return [part for part in parts if len(part)]
+
+    @cached_property
+    def trees(self) -> list[tuple[shapely.STRtree, Geometries]]:
+        """For each part a tree of all its edges, and a point inside each of its geometries."""
+        return [(shapely.STRtree(edges(part)), shapely.point_on_surface(part)) for part in self.parts]
+
+    def hold(self, ones: Array, others: Array) -> NDArray[np.bool_]:
+        """Whether pairs of copies over the same place draw the same.
+
+        Args:
+            ones, others: the linear parts of their maps, shape (n, 4).
+        """
+        if not len(ones):
+            return np.empty(0, bool)
+        relative = np.linalg.solve(ones.reshape(-1, 2, 2), others.reshape(-1, 2, 2))
+        rigid = np.abs(np.abs(np.linalg.det(relative)) - 1) <= 1e-6
+        _, first, number = np.unique(
+            np.round(relative.reshape(-1, 4) * 1e7).astype(int),
+            axis=0,
+            return_index=True,
+            return_inverse=True,
+        )
+        known = np.array([bool(rigid[i]) and self._test(relative[i]) for i in first.tolist()])
+        return np.asarray(known[number.ravel()])
 
     def _test(self, linear: Array) -> bool:
         if np.allclose(linear, np.eye(2), rtol=0, atol=SIMILAR):
             return True
-        assert self.centre is not None
         # Both the curve and its image stand off the true ones by the tolerance.
         reach = 2 * self.tolerance
         for part in self.parts:
@@ -95,8 +112,7 @@ class _Symmetry:
         return all(self._lies_on_itself(i, linear, reach) for i in range(len(self.parts)))
 
     def _lies_on_itself(self, i: int, linear: Array, reach: float) -> bool:
-        assert self.centre is not None
-        tree, inside = self._tree(i)
+        tree, inside = self.trees[i]
         points = shapely.get_coordinates(self.parts[i]) - self.centre
         # Onto itself in one direction is onto itself in both for a map of finite order; a motif of an
         # arc and a longer arc upon it tells the two apart, so ask both ways.
@@ -114,14 +130,6 @@ class _Symmetry:
                     return False
         return True
 
-    def _tree(self, i: int) -> tuple[shapely.STRtree, Geometries]:
-        """Return a tree of all edges of a part, and a point inside each of its geometries."""
-        if self.trees is None:
-            self.trees = [
-                (shapely.STRtree(_edges(part)), shapely.point_on_surface(part)) for part in self.parts
-            ]
-        return self.trees[i]
-
 
 def _points(coordinates: Array) -> Geometries:
     return np.asarray(shapely.points(coordinates), dtype=object)
@@ -131,7 +139,7 @@ def _areal(geometries: Geometries) -> np.ndarray[tuple[int], np.dtype[np.bool_]]
     return np.asarray(shapely.get_dimensions(geometries) == 2)
 
 
-def _edges(geometries: Geometries) -> Geometries:
+def edges(geometries: Geometries) -> Geometries:
     """Return all edges as single segments."""
     parts = shapely.get_parts(geometries)
     areal = _areal(parts)

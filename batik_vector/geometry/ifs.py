@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import astuple, dataclass
 from typing import Annotated
 
 import numpy as np
@@ -18,9 +17,11 @@ from batik_vector import fields
 from batik_vector.errors import GeometryError, TooLargeError
 from batik_vector.fields import Between, Says
 from batik_vector.geometry.coincide import distinct, drawn_once
-from batik_vector.geometry.maps.affine import SIMILAR, Affine
+from batik_vector.geometry.maps.affine import IDENTITY, SIMILAR, Affine
+from batik_vector.geometry.maps.affines import Affines
 from batik_vector.geometry.maps.flame import STRETCH_CAP, FlameMap, Images, Tolerance
 from batik_vector.geometry.sampling import REFINE_SHARE, Array, Geometries, Indices, Points
+from batik_vector.values import frozen
 
 __all__ = ["MAX_COPIES", "MAX_PATHS", "Ifs", "distinct"]
 
@@ -38,7 +39,7 @@ MAX_PATHS = 10**9
 it stops what would only find out after minutes that it does not fit."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Ifs:
     """Maps applied together, ``level`` times: S ← ⋃ F_i(S).
 
@@ -57,7 +58,7 @@ class Ifs:
         """Return how many copies there are, before those that coincide are merged."""
         return int(sum(each.branches for each in self.maps) ** self.level)
 
-    def affine_images(self) -> list[Affine] | None:
+    def affine_images(self) -> Affines | None:
         """Return every copy as an affine map, each distinct one once, or None where a map bends.
 
         The order is that of the innermost map first, and never changes.
@@ -72,13 +73,12 @@ class Ifs:
                 return None
             steps += branches
         self._refuse_too_many(self.image_count(), MAX_PATHS)
-        table = np.array([astuple(step) for step in steps])
-        found = np.array([astuple(Affine())])
+        table, found = Affines.of(steps), Affines.of([IDENTITY])
         for _ in range(self.level):
             self._refuse_too_many(len(found) * len(table), MAX_COPIES * 64)
-            found = _once(_compose(table, found))
+            found = _once(table.after(found))
             self._refuse_too_many(len(found), MAX_COPIES)
-        return [Affine(*map(float, row)) for row in found]
+        return found
 
     def areas(self, polygons: Geometries, tolerance: float) -> tuple[Geometries, Indices]:
         """Return the copies of polygons, drawn once where they coincide, and the polygon each comes from.
@@ -163,19 +163,11 @@ def _about(count: int) -> str:
     return f"about 10^{math.floor(math.log10(count))}"
 
 
-def _compose(outer: Array, inner: Array) -> Array:
-    """Return every outer map after every inner one, the inner ones running fastest; rows are (a, …, f)."""
-    a, b, c, d, e, f = (column[:, None] for column in outer.T)
-    p, q, r, s, t, u = (column[None, :] for column in inner.T)
-    rows = (a * p + b * r, a * q + b * s, c * p + d * r, c * q + d * s, a * t + b * u + e, c * t + d * u + f)
-    return np.stack([np.broadcast_to(row, (len(outer), len(inner))).ravel() for row in rows], axis=1)
-
-
-def _once(rows: Array) -> Array:
-    """Return the rows that differ from every earlier one by more than rounding, in their order."""
-    scale = np.abs(rows).max(axis=0)
+def _once(maps: Affines) -> Affines:
+    """Return the maps that differ from every earlier one by more than rounding, in their order."""
+    scale = np.abs(maps.rows).max(axis=0)
     scale[:4], scale[4:] = scale[:4].max(), scale[4:].max()
     # The odd offset keeps the values that occur (0, halves, thirds) off the edges of the cells.
-    cells = np.floor(rows / (np.where(scale > 0, scale, 1.0) * SIMILAR) + 0.382)
+    cells = np.floor(maps.rows / (np.where(scale > 0, scale, 1.0) * SIMILAR) + 0.382)
     _, first = np.unique(cells, axis=0, return_index=True)
-    return rows[np.sort(first)]
+    return maps.taken(np.sort(first))

@@ -43,7 +43,8 @@ def settle(rings: Sequence[Points], rule: FillRule = FillRule.NONZERO) -> Geomet
     else:
         winding = winding_numbers(rings, shapely.get_coordinates(shapely.point_on_surface(faces)))
         inside = faces[winding != 0] if rule == FillRule.NONZERO else faces[winding % 2 == 1]
-    merged = shapely.get_parts(shapely.union_all(inside))
+    # Faces share their edges to the bit.
+    merged = shapely.get_parts(shapely.coverage_union_all(inside))
     if rule == FillRule.OUTLINE:
         merged = shapely.get_parts(shapely.union_all(shapely.polygons(shapely.get_exterior_ring(merged))))
     return oriented(merged)

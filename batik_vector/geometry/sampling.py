@@ -45,15 +45,20 @@ MAX_POINTS = 30_000_000
 
 
 def deviation(points: Points, start: Points, end: Points) -> Array:
-    """Return each point's distance to the segment from ``start`` to ``end`` (all of shape (n, 2))."""
+    """Return each point's distance to the segment from ``start`` to ``end``.
+
+    Args:
+        points: shape (n, 2), or (k, n, 2) for k points to each segment.
+        start, end: shape (n, 2).
+    """
     along = end - start
     away = points - start
     square = np.einsum("ij,ij->i", along, along)
-    with np.errstate(invalid="ignore", divide="ignore"):
-        part = np.einsum("ij,ij->i", away, along) / square
-    part = np.clip(np.nan_to_num(part), 0.0, 1.0)
-    away = away - along * part[:, None]
-    return np.asarray(np.hypot(away[:, 0], away[:, 1]))
+    part = np.einsum("...j,...j->...", away, along)
+    # A segment of no length is its start.
+    part = np.divide(part, square, out=np.zeros_like(part), where=square > 0)
+    away -= along * np.minimum(np.maximum(part, 0.0), 1.0)[..., None]
+    return np.asarray(np.hypot(away[..., 0], away[..., 1]))
 
 
 def refine(
@@ -102,16 +107,22 @@ def _pieces_needed(
     tolerance: float | Callable[[Points], Array],
 ) -> Indices:
     """Return into how many parts to cut each piece: 1 where it is within the tolerance."""
-    a, b = evaluate(piece, t0), evaluate(piece, t1)
-    worst = np.zeros(len(piece))
-    for probe in PROBES:
-        point = evaluate(piece, t0 + (t1 - t0) * probe)
-        if not np.isfinite(point).all():
-            raise GeometryError("the curve is not finite everywhere: it runs through a pole")
-        worst = np.maximum(worst, deviation(point, a, b))
+    span, count = t1 - t0, len(piece)
+    # Most pieces end where the next one starts.
+    alone = np.append((piece[1:] != piece[:-1]) | (t0[1:] != t1[:-1]), True)
+    t = np.concatenate([t0, *(t0 + span * probe for probe in PROBES), t1[alone]])
+    points = evaluate(np.concatenate([*[piece] * (1 + len(PROBES)), piece[alone]]), t)
+    a, last = points[:count], points[(1 + len(PROBES)) * count :]
+    probes = points[count : (1 + len(PROBES)) * count].reshape(len(PROBES), count, 2)
+    b = np.empty_like(a)
+    b[:-1], b[alone] = a[1:], last
+    if not np.isfinite(probes).all():
+        raise GeometryError("the curve is not finite everywhere: it runs through a pole")
+    worst = deviation(probes, a, b).max(axis=0)
     allowed = tolerance((a + b) / 2) if callable(tolerance) else tolerance
     # Parameters that no float lies between cannot be split further.
-    splittable = (t0 + (t1 - t0) / 2 > t0) & (t0 + (t1 - t0) / 2 < t1)
+    middle = t0 + span / 2
+    splittable = (middle > t0) & (middle < t1)
     return np.where(
         (worst > allowed) & splittable, np.clip(np.ceil(np.sqrt(worst / allowed) * 0.8), 2, 8), 1
     ).astype(np.intp)
@@ -174,9 +185,9 @@ def _spaced(need: Array, fixed: NDArray[np.bool_]) -> NDArray[np.bool_]:
     before = total[ends]
     width = np.diff(before, append=total[-1])
     chords = np.maximum(np.ceil(width * 1.04), 1)
-    with np.errstate(invalid="ignore", divide="ignore"):
-        bucket = np.floor(np.nan_to_num((total - before[span]) / width[span] * chords[span]) + 1e-9)
-    bucket = np.minimum(bucket, chords[span] - 1)
+    wide = width[span]
+    share = np.divide(total - before[span], wide, out=np.zeros_like(wide), where=wide > 0)
+    bucket = np.minimum(np.floor(share * chords[span] + 1e-9), chords[span] - 1)
     crossing = np.zeros(len(need), bool)
     crossing[1:] = (bucket[1:] > bucket[:-1]) & (span[1:] == span[:-1])
     return crossing

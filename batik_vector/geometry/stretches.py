@@ -6,13 +6,13 @@ vertices, and over every chord the cubic arc between them. Inside, points are co
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from batik_vector.geometry.sampling import Array, Indices, Points, thin
+from batik_vector.values import frozen
 
 Mask: TypeAlias = NDArray[np.bool_]
 Complex: TypeAlias = NDArray[np.complex128]
@@ -42,7 +42,7 @@ ALIKE = 1.25
 """Turns and edges that differ by less than this factor are those of a regular polygon: a circle's."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Lines:
     """Polylines without their useless vertices; a ring's first vertex is not repeated.
 
@@ -60,7 +60,7 @@ class Lines:
     end: Mask
 
 
-@dataclass(frozen=True)
+@frozen
 class Runs:
     """Smooth stretches: items are their vertices, each stretch with both of its ends.
 

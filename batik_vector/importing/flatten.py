@@ -7,14 +7,13 @@ a curve cut at the seam by hand and one that runs across it meet the seam in the
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
 from batik_vector.errors import TooLargeError
 from batik_vector.importing.outlines import CURVE, LINE, MOVE, Outline
 from batik_vector.units import STEPS_PER_MM
+from batik_vector.values import frozen
 
 Points = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -37,7 +36,7 @@ FINER = 3
 the seam that is no sharper than the chord's own turn."""
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class Lines:
     """Polylines: number i is ``points[offsets[i]:offsets[i + 1]]``, one for each subpath."""
 
@@ -45,7 +44,7 @@ class Lines:
     offsets: Indices
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class Crossings:
     """Where curves cross the page's edges: number of the cubic, parameter on it, and place."""
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import shapely
@@ -20,6 +20,7 @@ from batik_vector.importing.fills import filled
 from batik_vector.importing.flatten import Lines
 from batik_vector.importing.walk import Shape
 from batik_vector.units import STEPS_PER_MM, format_mm
+from batik_vector.values import frozen
 
 Indices = NDArray[np.intp]
 Key = tuple[str, str, float]
@@ -33,7 +34,7 @@ PAGE_SLACK_MM = 1e-3
 _PEN = re.compile(r"^\d+ +(?=\S)")
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class Marks:
     """What shapes paint, in mm on the cell: areas and lines, each with the number of its shape."""
 

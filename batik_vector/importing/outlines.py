@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from batik_vector.importing.matrix import NUMBER, Matrix, moved
+from batik_vector.values import frozen
 
 Points = NDArray[np.float64]
 MOVE, LINE, CONTROL, CURVE = range(4)
@@ -23,7 +24,7 @@ two handles stand before it."""
 MAX_ARC = math.pi / 8
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class Outline:
     """Subpaths: ``points`` of shape (n, 2), ``kinds`` of shape (n,), ``closed`` of one for each MOVE."""
 

@@ -9,11 +9,11 @@ from __future__ import annotations
 import math
 import re
 import xml.etree.ElementTree as ET
-from dataclasses import dataclass
 
 from batik_vector.importing.document import Document
 from batik_vector.importing.matrix import NUMBER, PX_PER_INCH, PX_PER_UNIT, Matrix, times
 from batik_vector.units import GRID_MM, format_mm
+from batik_vector.values import frozen
 
 MM_PER_PX = 25.4 / PX_PER_INCH
 LEAST_MM, MOST_MM = 0.1, 20_000.0
@@ -24,7 +24,7 @@ Box = tuple[float, float, float, float]
 """Left, top, width and height in user units."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Page:
     """The page in mm, and the map from the root's user units to mm on it, y still downwards.
 

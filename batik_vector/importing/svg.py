@@ -10,7 +10,6 @@ them off in print as on the screen.
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
@@ -26,6 +25,7 @@ from batik_vector.importing.page import Page, page_of
 from batik_vector.importing.walk import Shape, Walker
 from batik_vector.tiling.cells import parse_repeat
 from batik_vector.units import STEPS_PER_MM, format_mm
+from batik_vector.values import frozen
 
 TOLERANCE_MM = 0.005
 ROUNDED_MM = 1e-6
@@ -34,7 +34,7 @@ NAMESPACE = b"urn:x-batik-vector:provenance"
 """Ours, as :mod:`batik_vector.export.provenance` writes it."""
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class Reading:
     """A tile and how it was read.
 

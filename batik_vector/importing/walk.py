@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 import xml.etree.ElementTree as ET
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -29,6 +29,7 @@ from batik_vector.importing.page import Page, fitted, parse_px, view_box
 from batik_vector.importing.paint import EXPAND, paint_of, url_of
 from batik_vector.importing.shapes import SHAPES, outline_of
 from batik_vector.importing.styles import GEOMETRY, INITIAL, MOVES, Style, Styles, share_of
+from batik_vector.values import frozen
 
 MAX_SHAPES = 1_000_000
 MAX_POINTS = 20_000_000
@@ -52,7 +53,7 @@ _REFUSED = {
 _LAYER_CODE = re.compile("_x([0-9A-Fa-f]{2,4})_")
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class Shape:
     """Something painted: its outline in mm on the page, y down, and how it is filled and stroked.
 
@@ -69,7 +70,7 @@ class Shape:
     width: float
 
 
-@dataclass(frozen=True)
+@frozen
 class _Here:
     """What holds at one place of the tree."""
 

@@ -5,24 +5,22 @@ from __future__ import annotations
 import datetime
 import math
 import re
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from batik_vector.errors import Fault, RecipeError, unknown_name
 from batik_vector.fields import TAG
 from batik_vector.reading.hints import Hint, chosen, expected, members, span
 from batik_vector.reading.lines import parse_path
-from batik_vector.references import Path, children, dotted
+from batik_vector.references import Path, dotted
+from batik_vector.values import frozen
 
 _BOUNDS = ("greater_than_equal", "less_than_equal")
-MAX_DEPTH = 64
-"""Tables within tables. The deepest recipe has about eight."""
 _LONGEST = 60
 _MISSING = object()
 
 
-@dataclass(frozen=True)
+@frozen
 class Found:
     """A fault and the path whose line it is told with, which may lie deeper than its key."""
 
@@ -30,7 +28,7 @@ class Found:
     fault: Fault
 
 
-@dataclass(frozen=True)
+@frozen
 class _Spot:
     """Where an error stands: its path, what is written there, and what should be."""
 
@@ -228,15 +226,6 @@ def _unknown_key(key: str, cls: type, tag: str | None, path: Path) -> Found:
     return Found(here, Fault(unknown_name(key[:_LONGEST], names, "key"), dotted(path)))
 
 
-def odd_numbers(value: Any, path: Path = ()) -> Iterator[Found]:
-    """Yield the whole numbers that TOML's 64 bits do not hold.
-
-    Raises:
-        RecursionError: where tables lie too deep in one another.
-    """
-    if len(path) > MAX_DEPTH:
-        raise RecursionError
-    if isinstance(value, int) and value.bit_length() > 64:
-        yield Found(path, Fault(f"{shown(value)}, expected a number of at most 64 bits", dotted(path)))
-    for key, inner in children(value):
-        yield from odd_numbers(inner, (*path, key))
+def odd_number(number: int) -> str:
+    """Return what is wrong with a whole number that TOML's 64 bits do not hold."""
+    return f"{shown(number)}, expected a number of at most 64 bits"

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+import codecs
 import os
 import stat
-from difflib import get_close_matches
 from pathlib import Path
 
 from batik_vector.errors import Fault, RecipeError
@@ -67,8 +67,9 @@ def decoded(data: bytes, source: str) -> str:
     Raises:
         RecipeError: with the line of the first byte that is no UTF-8.
     """
+    data = data.removeprefix(codecs.BOM_UTF8)
     try:
-        text = data.decode("utf-8-sig")
+        text = data.decode("utf-8")
     except UnicodeDecodeError as error:
         line = data.count(b"\n", 0, error.start) + 1
         raise RecipeError(
@@ -85,6 +86,8 @@ def _reason(path: Path, error: Exception) -> str:
 
 def _near(path: Path) -> str:
     """Offer the file beside it whose name is nearest."""
+    from difflib import get_close_matches
+
     try:
         names = sorted(name for name in os.listdir(path.parent) if name.lower().endswith(_SUFFIXES))[:10_000]
     except OSError:

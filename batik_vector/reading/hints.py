@@ -8,15 +8,15 @@ import functools
 import math
 import types
 import typing
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, Literal, Union
 
-from batik_vector.fields import Between, Hidden, LengthUnit, OneOf, Says, Several, Text
+from batik_vector.fields import HIDDEN, Between, LengthUnit, OneOf, Says, Several, Text, hint_of
 from batik_vector.units import format_mm
+from batik_vector.values import frozen
 
 
-@dataclass(frozen=True)
+@frozen
 class Hint:
     """A type with the marks it carries. ``base`` is a plain type, an enum, a dataclass or a generic."""
 
@@ -27,25 +27,24 @@ class Hint:
     text: Text | None = None
     length: bool = False
     several: bool = False
-    hidden: bool = False
 
-    @property
+    @functools.cached_property
     def origin(self) -> Any:
         """``tuple`` for ``tuple[int, ...]``; the type itself where it is not generic."""
         return typing.get_origin(self.base) or self.base
 
-    @property
+    @functools.cached_property
     def items(self) -> list[Hint]:
         """What a fixed tuple holds, place by place; nothing for any other type."""
         args = typing.get_args(self.base)
         return [] if self.origin is not tuple or self.many else [taken_apart(arg) for arg in args]
 
-    @property
+    @functools.cached_property
     def many(self) -> bool:
         """Whether this is a tuple of any length."""
         return self.origin is tuple and typing.get_args(self.base)[-1] is Ellipsis
 
-    @property
+    @functools.cached_property
     def item(self) -> Hint | None:
         """What a list of any length or a table by names holds."""
         args = typing.get_args(self.base)
@@ -53,7 +52,7 @@ class Hint:
             return taken_apart(args[0])
         return taken_apart(args[1]) if self.origin is dict else None
 
-    @property
+    @functools.cached_property
     def names(self) -> list[str]:
         """The words to choose from, of an enum or a literal."""
         if self.origin is Literal:
@@ -63,7 +62,7 @@ class Hint:
         return []
 
 
-@dataclass(frozen=True)
+@frozen
 class Member:
     """A field of a dataclass that a recipe may write."""
 
@@ -87,27 +86,45 @@ def taken_apart(hint: Any) -> Hint:
                     marks.setdefault(_MARKS[type(mark)], mark)
                 marks["length"] = marks.get("length") or isinstance(mark, LengthUnit)
                 marks["several"] = marks.get("several") or isinstance(mark, Several)
-                marks["hidden"] = marks.get("hidden") or isinstance(mark, Hidden)
         elif origin in (Union, types.UnionType) and types.NoneType in typing.get_args(hint):
             (hint,) = (arg for arg in typing.get_args(hint) if arg is not types.NoneType)
         else:
             return Hint(str if marks.get("several") else hint, **marks)
 
 
+class _Members(Mapping[str, Member]):
+    """The fields of a dataclass that a recipe may write, each taken apart when it is first asked for."""
+
+    def __init__(self, cls: type) -> None:
+        self._cls = cls
+        written = (field for field in dataclasses.fields(cls) if field.init and HIDDEN not in field.metadata)
+        self._fields = {field.name: field for field in written}
+        self._found: dict[str, Member] = {}
+
+    def __getitem__(self, name: str) -> Member:
+        found = self._found.get(name)
+        if found is None:
+            found = self._found[name] = self._member(self._fields[name])
+        return found
+
+    def _member(self, field: dataclasses.Field[Any]) -> Member:
+        default = field.default if field.default is not dataclasses.MISSING else None
+        if field.default_factory is not dataclasses.MISSING:
+            default = field.default_factory()
+        required = field.default is field.default_factory is dataclasses.MISSING
+        return Member(taken_apart(hint_of(self._cls, field.name)), required, default)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._fields)
+
+    def __len__(self) -> int:
+        return len(self._fields)
+
+
 @functools.cache
 def members(cls: type) -> Mapping[str, Member]:
     """Return the fields of a dataclass that a recipe may write, by name."""
-    hints = typing.get_type_hints(cls, include_extras=True)
-    found = {}
-    for field in dataclasses.fields(cls):
-        hint = taken_apart(hints[field.name])
-        if field.init and not hint.hidden:
-            default = field.default if field.default is not dataclasses.MISSING else None
-            if field.default_factory is not dataclasses.MISSING:
-                default = field.default_factory()
-            required = field.default is field.default_factory is dataclasses.MISSING
-            found[field.name] = Member(hint, required, default)
-    return found
+    return _Members(cls)
 
 
 def chosen(hint: Hint, value: Any) -> type | None:

@@ -6,19 +6,20 @@ import copy
 import re
 import tomllib
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 from batik_vector.errors import Fault, RecipeError, unknown_name
-from batik_vector.reading.faults import MAX_DEPTH, odd_numbers, shown
+from batik_vector.reading.faults import odd_number, shown
+from batik_vector.reading.limits import MAX_DEPTH, odd_numbers
 from batik_vector.reading.lines import parse_path
 from batik_vector.references import Path, dotted
+from batik_vector.values import frozen
 
 NAMED = ("motif", "ink")
 """Tables whose keys are names that the recipe chose."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Override:
     """One value to set. ``text`` is how it was asked for."""
 
@@ -49,8 +50,8 @@ def parse_override(text: str) -> Override:
             raise ValueError("expected KEY=VALUE, such as motif.flower.petal.count=12")
         path = parse_path(key.strip())
         change = Override(path, _parsed(value.strip()), text)
-        for odd in odd_numbers(change.value, path):
-            raise ValueError(odd.fault.message)
+        for _, number in odd_numbers(change.value, path):
+            raise ValueError(odd_number(number))
     except ValueError as error:
         raise RecipeError([Fault(str(error), source=f"--set {_short(text)}")]) from None
     except RecursionError:

@@ -24,8 +24,8 @@ class UnsureError(Exception):
     """What was read may be wrong."""
 
 
-def built(cls: type[Built], table: dict[str, Any]) -> Built:
-    """Return a dataclass from the table of a recipe.
+def built(cls: type[Built], table: dict[str, Any], **hidden: Any) -> Built:
+    """Return a dataclass from the table of a recipe, and from fields that a recipe cannot write.
 
     Raises:
         UnsureError: where anything is not as the hints say.
@@ -36,7 +36,7 @@ def built(cls: type[Built], table: dict[str, Any]) -> Built:
         raise UnsureError
     values = {name: _value(known[name].hint, value) for name, value in table.items()}
     try:
-        return cls(**values)
+        return cls(**values, **hidden)
     except (BatikError, TypeError, ValueError, ArithmeticError) as error:
         raise UnsureError from error
 

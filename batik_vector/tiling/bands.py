@@ -10,7 +10,7 @@ In a band's own coordinates x runs along it and y from its outer edge inwards.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 
 import numpy as np
 import shapely
@@ -19,7 +19,8 @@ from numpy.typing import NDArray
 from batik_vector.artwork import Cell, Geometries, Ink, Layer, Overlap
 from batik_vector.geometry.sampling import Array, Indices, Points
 from batik_vector.tiling import seams
-from batik_vector.tiling.stack import Sheet, assemble
+from batik_vector.tiling.sheets import Sheet
+from batik_vector.tiling.stack import assemble
 from batik_vector.tiling.torus import (
     Window,
     clip_areas,
@@ -31,6 +32,7 @@ from batik_vector.tiling.torus import (
 )
 from batik_vector.tiling.weld import welded
 from batik_vector.units import STEPS_PER_MM
+from batik_vector.values import frozen
 
 MARGIN = 1000
 """Grid steps of bare cell kept round everything that is solved, so that nothing wraps."""
@@ -48,7 +50,7 @@ def _no_codes() -> Indices:
     return np.empty(0, np.intp)
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class Marks:
     """Marks of one ink in grid steps: areas and lines, each with the code of its name.
 
@@ -134,7 +136,7 @@ def together(parts: Iterable[Marks]) -> Marks:
     )
 
 
-@dataclass(frozen=True)
+@frozen
 class Span:
     """A stretch of the band's drawing, within one period of it, and where along the side it is laid.
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 import shapely
@@ -21,6 +20,7 @@ from batik_vector.tiling.bends import bent
 from batik_vector.tiling.joints import closed
 from batik_vector.tiling.torus import Window
 from batik_vector.units import STEPS_PER_MM, format_mm
+from batik_vector.values import frozen
 
 SIDES = {"bottom": (0, 1), "right": (1, 2), "top": (2, 3), "left": (3, 0)}
 """Sides anticlockwise, each from the corner where it begins to the one where it ends."""
@@ -39,7 +39,7 @@ TRIES = 33
 """How many stretches of the corners are compared to find one that suits all sides."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Side:
     """A side of a window: where it begins, which way it runs, and the corners it joins."""
 
@@ -94,7 +94,7 @@ def corner_square(window: Window, corner: int, manner: str) -> Callable[[Points]
     return lambda xy: np.asarray(xy @ axes + origin)
 
 
-@dataclass(frozen=True)
+@frozen
 class Course:
     """A side with the spans laid along it; ``arc`` spans bend round the corner at its end.
 
@@ -121,7 +121,7 @@ class Course:
         return together(parts).moved(self.side.to_cloth)
 
 
-@dataclass(frozen=True)
+@frozen
 class Measures:
     """What all sides of a border share: in grid steps, and the limit as a share of the period.
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import enum
 import functools
 import re
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import Annotated
 
@@ -17,8 +16,9 @@ from batik_vector.tiling.groups import GROUP_PATTERN, GROUPS, Group, Kind, group
 from batik_vector.tiling.orbits import TRIVIAL, Orbit, Shift
 from batik_vector.tiling.symmetry import Frame, Spread, orbit_of, shapes_of
 from batik_vector.units import format_mm, to_steps
+from batik_vector.values import frozen
 
-_DROP = re.compile(r"^(drop|brick)\s+(\d{1,3})\s*/\s*(\d{1,3})$")
+_DROP = r"^(drop|brick)\s+(\d{1,3})\s*/\s*(\d{1,3})$"
 _NAMED = {
     "grid": (Fraction(0), DropAxis.COLUMN),
     "half-drop": (Fraction(1, 2), DropAxis.COLUMN),
@@ -48,7 +48,7 @@ class Cut(enum.StrEnum):
     """One unit, to be repeated with its drop."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Repeat:
     """How units stand to one another.
 
@@ -86,7 +86,7 @@ def parse_repeat(text: str) -> tuple[Fraction, DropAxis]:
     words = text.strip().lower()
     if words in _NAMED:
         return _NAMED[words]
-    match = _DROP.match(words)
+    match = re.match(_DROP, words)
     if match is None:
         raise GeometryError(f'repeat "{text}": expected {DROPS}')
     p, q = int(match[2]), int(match[3])
@@ -106,7 +106,7 @@ def repeat_of(text: str) -> Repeat:
     if words in MIRRORS:
         name, across, up = MIRRORS[words]
         return Repeat(group=group(name), across=across, up=up)
-    if words in _NAMED or _DROP.match(words):
+    if words in _NAMED or re.match(_DROP, words):
         drop, axis = parse_repeat(text)
         return Repeat(drop, axis)
     try:
@@ -122,7 +122,7 @@ def _checked_repeat(text: str) -> str:
     return text
 
 
-@dataclass(frozen=True, kw_only=True)
+@frozen(kw_only=True)
 class TileSpec:
     """The repeat: the size of its unit, how units stand to one another, and what is cut out as the tile.
 

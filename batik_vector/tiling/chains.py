@@ -13,18 +13,19 @@ which several boundaries run, chains are joined by their order round it, as in a
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
 from batik_vector.outlines import Index, Offsets, Outlines, Steps
+from batik_vector.values import frozen
 
 NO_SEAM = -1
 
 
-@dataclass(frozen=True)
+@frozen
 class Chains:
     """Stretches of boundary between nodes.
 
@@ -180,7 +181,7 @@ def _with_contacts(outlines: Outlines) -> Outlines:
     )
 
 
-@dataclass(frozen=True)
+@frozen
 class Copies:
     """Copies of chains: which, how far moved, and of which copy of a mark each is the boundary."""
 
@@ -194,7 +195,7 @@ class Copies:
         return of[self.which] + self.shift
 
 
-@dataclass(frozen=True)
+@frozen
 class Contact:
     """Where edges on seams met their twins.
 

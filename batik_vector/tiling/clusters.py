@@ -10,7 +10,6 @@ for itself.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 import shapely
@@ -22,6 +21,7 @@ from batik_vector.outlines import Index, Outlines, Steps
 from batik_vector.tiling.cutting import placed
 from batik_vector.tiling.torus import Window, translate
 from batik_vector.tiling.unroll import cell_of, followed, lattice_of
+from batik_vector.values import frozen
 
 ALIKE = 0.4
 """How far apart marks of one element may lie, as petals do, as a share of the smaller one's size."""
@@ -31,7 +31,7 @@ LEVELS = (1.0, 0.8, 0.64, 0.5, 0.4, 0.3, 0.2, 0.1, 0.0)
 """What is left of these distances, one after another, where copies would run on into each other."""
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class _Links:
     """Marks held to be of one copy: one, other, the other's cell from the one's, and from which level on."""
 
@@ -44,7 +44,7 @@ class _Links:
         return _Links(self.one[which], self.other[which], self.step[which], self.level[which])
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class _Marks:
     """Marks in their home cell: their hulls, and the numbers of their motif and of their element."""
 

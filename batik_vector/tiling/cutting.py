@@ -6,7 +6,7 @@ Coordinates are whole grid steps.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 
 import numpy as np
 import shapely
@@ -24,6 +24,7 @@ from batik_vector.outlines import (
     together,
 )
 from batik_vector.tiling.torus import Window, clip_areas, clip_lines, lines_of, polygons_of
+from batik_vector.values import frozen
 
 PIECE = 400_000
 """Points that are handed over at once, about."""
@@ -37,7 +38,7 @@ CROSS, LINE, MEET = (0, 0), (0, 1), (1, 1)
 the right or upper edge is cut away, for it has its twin on the other."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Filling:
     """How a window is filled.
 
@@ -94,7 +95,7 @@ def reaching(bounds: Steps, shift: Steps, window: Window, touch: Touch) -> Steps
     return np.where(over, edges - np.tile(shift, 2), FAR * np.array([-1, -1, 1, 1]))
 
 
-@dataclass(frozen=True)
+@frozen
 class Cuttings:
     """What the window's edge leaves of copies of marks.
 

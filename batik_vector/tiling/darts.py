@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 import random
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import shapely
@@ -20,6 +20,7 @@ from batik_vector.artwork import Geometries
 from batik_vector.geometry.sampling import Array, Indices
 from batik_vector.tiling.marks import Complexes, Field, Poses
 from batik_vector.tiling.scatter import Scatter
+from batik_vector.values import frozen
 
 FEW_DARTS, LEAST_BATCH, MOST_BATCH = 48, 256, 4096
 """Darts thrown at once: as many as marks lie there, within the last two bounds; where a number is wanted at
@@ -47,7 +48,7 @@ class Dice:
         return np.array([self._next() for _ in range(count)], np.float64)
 
 
-@dataclass(frozen=True)
+@frozen
 class Rules:
     """What darts look like. ``size`` counts from the kit's least size, so it begins at 1."""
 
@@ -66,7 +67,7 @@ class Rules:
         return np.round(low + (high - low) * chance, 3)
 
 
-@dataclass(frozen=True)
+@frozen
 class Spacing:
     """How far marks stand apart, in grid steps: from all others, and from those of the same motif."""
 

@@ -7,7 +7,6 @@ commonest rotary repeats. Printers of pixels want a whole number of them in a re
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import Annotated
 
@@ -15,6 +14,7 @@ from batik_vector.artwork import Cell
 from batik_vector.errors import Fault, RecipeError
 from batik_vector.fields import Between, Length, Says, check
 from batik_vector.units import STEPS_PER_MM, format_mm
+from batik_vector.values import frozen
 
 STEPS_PER_INCH = 25_400
 
@@ -24,7 +24,7 @@ ROUNDING = 1e-9
 """Relative: what floats may add to a stretch that is just within its limit."""
 
 
-@dataclass(frozen=True, kw_only=True)
+@frozen(kw_only=True)
 class Fit:
     """The repeat of a machine, which a whole number of the finished rectangle's repeats must fill."""
 

@@ -7,13 +7,13 @@ Tables for Crystallography E* (2010), part 2, for the others.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import TypeAlias
 
 from batik_vector.errors import UnknownNameError
 from batik_vector.geometry.maps.affine import Affine
 from batik_vector.tiling.orbits import Orbit
+from batik_vector.values import frozen
 
 HALF = Fraction(1, 2)
 
@@ -27,7 +27,7 @@ HALF_TURN: Step = (-1, -1, Fraction(0))
 IDENTITY: Step = (1, 1, Fraction(0))
 
 
-@dataclass(frozen=True)
+@frozen
 class Frieze:
     """One frieze group: its names, and the generators beside the translation by a period.
 

@@ -16,10 +16,11 @@ import functools
 import itertools
 import re
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 
 from batik_vector.errors import UnknownNameError
+from batik_vector.values import frozen
 
 Pair = tuple[Fraction, Fraction]
 """A point or a shift in fractions of the cell's width and height."""
@@ -44,7 +45,7 @@ class Kind(enum.StrEnum):
         return {Kind.ANY: None, Kind.SQUARE: 1.0, Kind.HEXAGONAL: 3**0.5}[self]
 
 
-@dataclass(frozen=True)
+@frozen
 class Operation:
     """A Seitz operator (A | t): p ↦ A·p + t, with A = [[a, b], [c, d]] and t = (e, f), in fractions.
 
@@ -102,6 +103,7 @@ class Operation:
 _TERM = re.compile(r"([+-]?)(\d*)([xy]?)(?:/(\d+))?")
 
 
+@functools.cache
 def parse_operation(text: str) -> Operation:
     """Return the operator of a coordinate pair: ``"1/2 - x, y + 1/2"``, ``"x/2 - 3y/2, x/2 + y/2"``."""
     rows = []
@@ -147,7 +149,7 @@ def multiplied(
     return tuple(made)
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class Group:
     """A wallpaper group in its rectangular cell.
 
@@ -236,6 +238,9 @@ def _cross(p: Pair, q: Pair) -> Fraction:
     return p[0] * q[1] - p[1] * q[0]
 
 
+_fraction = functools.cache(Fraction)
+
+
 def _row(name: str, orbifold: str, others: str, kind: Kind, generators: str, region: str) -> Group:
     corners = [corner.split(",") for corner in region.split()]
     return Group(
@@ -244,7 +249,7 @@ def _row(name: str, orbifold: str, others: str, kind: Kind, generators: str, reg
         tuple(others.split()),
         kind,
         tuple(parse_operation(each) for each in generators.split(";") if each.strip()),
-        tuple((Fraction(x), Fraction(y)) for x, y in corners),
+        tuple((_fraction(x), _fraction(y)) for x, y in corners),
     )
 
 

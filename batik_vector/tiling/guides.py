@@ -6,7 +6,7 @@ Distances are in mm on cloth, the printed area's lower left corner at (0, 0).
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import shapely
@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from batik_vector.artwork import Ink, Margins
 from batik_vector.outlines import MM, Outlines, of_polylines
 from batik_vector.units import to_steps
+from batik_vector.values import frozen
 
 CLEAR = 2.0
 """Between the drawing's bleed and the nearest mark."""
@@ -37,7 +38,7 @@ def guide_ink(cloth: str) -> Ink:
     return Ink("marks", "#ffffff" if dark else "#000000", 0.2)
 
 
-@dataclass(frozen=True)
+@frozen
 class Guides:
     """What the marks go by, in mm.
 

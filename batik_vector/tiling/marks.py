@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import shapely
@@ -13,6 +13,7 @@ from batik_vector.artwork import Geometries
 from batik_vector.geometry.maps.affine import Affine
 from batik_vector.geometry.sampling import Array, Indices
 from batik_vector.tiling.torus import Steps
+from batik_vector.values import frozen
 
 Complexes = NDArray[np.complex128]
 Flags = NDArray[np.bool_]
@@ -24,7 +25,7 @@ PROBES = 32
 """Places along each side of an outline's box at which discs may have their centres."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Poses:
     """How marks lie, one array each: which motif, how large, turned (degrees), flipped, where."""
 
@@ -77,7 +78,7 @@ class Poses:
         return np.asarray(points + self.place.reshape(rows))
 
 
-@dataclass(frozen=True)
+@frozen
 class Field:
     """Marks as they lie, one array each.
 
@@ -191,7 +192,7 @@ class Field:
         return least
 
 
-@dataclass(frozen=True)
+@frozen
 class Kit:
     """The motifs to scatter, at their least size, each moved so that its middle lies at the origin.
 

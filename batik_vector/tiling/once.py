@@ -12,6 +12,7 @@ import shapely
 from numpy.typing import NDArray
 
 from batik_vector.artwork import Geometries
+from batik_vector.tiling.congruent import alike
 
 
 def drawn_once(lines: Geometries, names: NDArray[np.intp]) -> tuple[Geometries, NDArray[np.intp]]:
@@ -51,11 +52,11 @@ def _on_lines(
     step[back] *= -1
     step //= np.gcd(step[:, 0], step[:, 1])[:, None]
     distance = step[:, 0] * ends[:, 1] - step[:, 1] * ends[:, 0]
-    _, line = np.unique(np.column_stack([step, distance]), axis=0, return_inverse=True)
+    _, line = alike(np.column_stack([step, distance]))
     # Along a line the abscissa orders the points; along an upright one the ordinate does.
     axis = np.where(step[:, 0] == 0, 1, 0)
     index = np.arange(len(ends))
-    return line.ravel(), ends[index, axis], ends[index, axis + 2], ends
+    return line, ends[index, axis], ends[index, axis + 2], ends
 
 
 def _rejoined(

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 import shapely
@@ -17,10 +16,12 @@ from batik_vector.artwork import Geometries
 from batik_vector.errors import GeometryError, TooLargeError
 from batik_vector.geometry.coincide import distinct
 from batik_vector.geometry.maps.affine import IDENTITY, Affine
+from batik_vector.geometry.maps.affines import Affines
 from batik_vector.geometry.sampling import Array, Indices
 from batik_vector.tiling.stack import MAX_REPEATS, MAX_VERTICES
 from batik_vector.tiling.torus import Window, lines_of, polygons_of, to_mm, wrap
 from batik_vector.units import STEPS_PER_MM
+from batik_vector.values import frozen
 
 Shift = tuple[float, float]
 
@@ -35,7 +36,7 @@ NEVER = 10**12
 """Grid steps to the next repeat where there is none: a thousand kilometres."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Region:
     """A convex piece of the cloth whose images under an orbit cover all of it once.
 
@@ -63,7 +64,7 @@ class Region:
         return shapely.Polygon(moved[:, :, 0])
 
 
-@dataclass(frozen=True)
+@frozen
 class Orbit:
     """The images of whatever is placed, in mm on cloth.
 
@@ -90,7 +91,7 @@ class Orbit:
         """Whether nothing is multiplied nor cut."""
         return len(self.operations) == 1 and self.region is None
 
-    def images(self, copies: Sequence[Affine], motif: Sequence[Geometries], tolerance: float) -> list[Affine]:
+    def images(self, copies: Sequence[Affine], motif: Sequence[Geometries], tolerance: float) -> Affines:
         """Return all images of copies, those that draw what an earlier one draws left out.
 
         Args:
@@ -98,12 +99,16 @@ class Orbit:
             motif: its geometries, one array for each thing that must come to lie on itself.
             tolerance: in motif units: how far its edges may stand from the true curves.
         """
-        images = [operation @ copy for operation in self.operations for copy in copies]
+        images = self.multiplied(copies)
         if not motif or not any(len(part) for part in motif):
             return images
         hull = shapely.convex_hull(shapely.geometrycollections(np.concatenate(list(motif))))
         centre = shapely.get_coordinates(shapely.centroid(hull))[0]
         return distinct(brought_together(images, centre, self.periods), motif, tolerance)
+
+    def multiplied(self, copies: Sequence[Affine]) -> Affines:
+        """Return all images of copies, the copies running fastest."""
+        return Affines.of(self.operations).after(Affines.of(copies))
 
     def mirrored(self, marks: Geometries) -> Geometries:
         """Return marks (mm) wrapped by the periods, cut to the region, and all images of the pieces.
@@ -154,7 +159,7 @@ TRIVIAL = Orbit()
 """What is placed is drawn where it is placed, and nowhere else."""
 
 
-def brought_together(images: list[Affine], centre: Array, periods: Sequence[Shift]) -> list[Affine]:
+def brought_together(images: Sequence[Affine], centre: Array, periods: Sequence[Shift]) -> Affines:
     """Return images moved by whole periods so that those equal modulo the periods lie together.
 
     Args:
@@ -162,17 +167,14 @@ def brought_together(images: list[Affine], centre: Array, periods: Sequence[Shif
         centre: a point of the motif, shape (2,): where it comes to lie decides the move.
         periods: none, one or two independent translations.
     """
-    if not periods or not images:
-        return images
+    maps = Affines.of(images)
+    if not periods or not len(maps):
+        return maps
     basis = np.array(periods, float)
-    rows = np.array([(m.a, m.b, m.c, m.d, m.e, m.f) for m in images])
-    places = np.column_stack([rows[:, :2] @ centre + rows[:, 4], rows[:, 2:4] @ centre + rows[:, 5]])
+    places = maps.at(centre[None])[:, 0]
     shares = places @ np.linalg.pinv(basis)
     whole = np.column_stack([np.floor(share - _cut(share)) for share in shares.T])
-    moves = whole @ basis
-    return [
-        Affine.translation((-dx, -dy)) @ image for image, (dx, dy) in zip(images, moves.tolist(), strict=True)
-    ]
+    return Affines.translations(-(whole @ basis)) @ maps
 
 
 def _cut(shares: Array) -> float:

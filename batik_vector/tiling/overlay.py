@@ -10,7 +10,7 @@ Coordinates are whole grid steps.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 import shapely
@@ -25,10 +25,29 @@ Again = Callable[[NDArray[np.intp]], shapely.Geometry | Geometries]
 """Makes the results of some rows again, on the grid."""
 
 
-def united(groups: Geometries) -> Geometries:
-    """Return the union of each row of areas: shape (n, k) → (n,)."""
-    joined = _without_specks(np.asarray(shapely.union_all(groups, axis=1), dtype=object))
-    return _rounded(joined, lambda rows: shapely.union_all(groups[rows], axis=1, grid_size=1.0))
+def united(groups: Sequence[Geometries]) -> Geometries:
+    """Return the union of each group of areas: shape (n,)."""
+    joined = np.empty(len(groups), dtype=object)
+    sizes = np.array([len(group) for group in groups], np.intp)
+    # Groups of about one size are united in one call: a row may end in nothing.
+    for power in np.unique(_powers(sizes)):
+        rows = np.flatnonzero(_powers(sizes) == power)
+        table = np.full((len(rows), 2**power), None, dtype=object)
+        for row, group in zip(table, rows.tolist(), strict=True):
+            row[: sizes[group]] = groups[group]
+        joined[rows] = shapely.union_all(table, axis=1)
+
+    def again(rows: NDArray[np.intp]) -> Geometries:
+        return np.array(
+            [shapely.union_all(groups[row], grid_size=1.0) for row in rows.tolist()], dtype=object
+        )
+
+    return _rounded(_without_specks(joined), again)
+
+
+def _powers(sizes: NDArray[np.intp]) -> NDArray[np.intp]:
+    """Return the least powers of two that hold some sizes."""
+    return np.asarray(np.ceil(np.log2(np.maximum(sizes, 1))), np.intp)
 
 
 def less(marks: Geometries, away: Geometries) -> Geometries:
@@ -41,6 +60,11 @@ def within(areas: Geometries, window: shapely.Polygon) -> Geometries:
     """Return what of each area lies in a window."""
     inside = np.asarray(shapely.intersection(areas, window), dtype=object)
     return _rounded(inside, lambda rows: shapely.intersection(areas[rows], window, grid_size=1.0))
+
+
+def on_grid(areas: Geometries) -> Geometries:
+    """Return areas rounded to whole steps."""
+    return _rounded(areas, lambda rows: shapely.set_precision(shapely.make_valid(areas[rows]), 1.0))
 
 
 def _without_specks(areas: Geometries) -> Geometries:

@@ -7,19 +7,18 @@ cycles, and pointer doubling orders them.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
 from batik_vector.outlines import Index, Offsets, Outlines, Steps, runs
 from batik_vector.tiling.chains import numbered
 from batik_vector.tiling.rings import aligned, cycles
+from batik_vector.values import frozen
 
 NONE = -1
 
 
-@dataclass(frozen=True)
+@frozen
 class Ends:
     """The two ends of open lines: end 2k where line k begins, end 2k + 1 where it ends.
 
@@ -64,7 +63,7 @@ def ends_of(lines: Outlines, free: NDArray[np.bool_]) -> Ends:
     return Ends(point, beside - point, free)
 
 
-@dataclass(frozen=True)
+@frozen
 class Paths:
     """Lines made of copies of lines, end to end.
 

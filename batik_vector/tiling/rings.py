@@ -6,8 +6,6 @@ node are put in order: of chains of one drawing these are far enough apart for f
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -15,9 +13,10 @@ from batik_vector.errors import SeamError
 from batik_vector.outlines import Index, Offsets, Outlines, Steps, runs
 from batik_vector.tiling.chains import NO_SEAM, Contact, Copies, cancelled, numbered
 from batik_vector.tiling.weld import components
+from batik_vector.values import frozen
 
 
-@dataclass(frozen=True)
+@frozen
 class Rings:
     """Rings made of copies of chains, polygon by polygon, outer rings before their holes.
 

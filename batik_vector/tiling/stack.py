@@ -1,14 +1,12 @@
 """Sheets of marks, laid one over another on the torus, become the layers of a tile.
 
-A sheet is what one element of one placement draws, over all its copies. Sheets lie in painting order;
-an upper one may cut those beneath it, with a gap of bare ground. What is left of every ink is wrapped
-round the cell, cut at its edges and, where its ink says so, welded.
+Sheets lie in painting order; an upper one may cut those beneath it, with a gap of bare ground. What is left
+of every ink is wrapped round the cell, cut at its edges and, where its ink says so, welded.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Sequence
 
 import numpy as np
 import shapely
@@ -16,28 +14,15 @@ from numpy.typing import NDArray
 
 from batik_vector.artwork import Cell, Geometries, Ink, Layer, Overlap
 from batik_vector.errors import SeamError, TooLargeError
-from batik_vector.geometry.regions import oriented
-from batik_vector.tiling import overlay, seams
-from batik_vector.tiling.endings import Places, lone_ends, own_ends
+from batik_vector.outlines import Index
+from batik_vector.tiling.congruent import Stock
+from batik_vector.tiling.cuts import cut, touched
 from batik_vector.tiling.once import drawn_once
-from batik_vector.tiling.torus import (
-    Lattice,
-    Window,
-    clip_areas,
-    clip_lines,
-    lines_of,
-    polygons_of,
-    to_mm,
-    to_step_grid,
-    translate,
-    wrap,
-)
-from batik_vector.tiling.weld import welded
+from batik_vector.tiling.sheets import Laid, Pile, Sheet, joined
+from batik_vector.tiling.torus import Lattice, to_mm
+from batik_vector.tiling.weld import weld
+from batik_vector.tiling.wrapping import Borders, Lines, Torus
 from batik_vector.units import STEPS_PER_MM
-
-Borders = frozenset[tuple[str, int, int, int]]
-Pieces = Callable[[Geometries, NDArray[np.intp]], tuple[Geometries, NDArray[np.intp]]]
-"""Takes geometries apart: (geometries, names) → (simple parts, their names)."""
 
 MAX_VERTICES = 50_000_000
 """Vertices past which the work is refused before it is begun."""
@@ -50,50 +35,6 @@ PHASES = 6
 
 PHASE_STEP = (13, 17)
 """By how many grid steps the design is moved for each new try."""
-
-
-def _none() -> Geometries:
-    return np.empty(0, dtype=object)
-
-
-@dataclass(frozen=True)
-class Sheet:
-    """The marks of one element, in mm on cloth, not yet wrapped.
-
-    ``ink`` is None for a sheet that only cuts. ``gap`` is how many mm of ground it keeps bare round its
-    shape by cutting what lies beneath; None cuts nothing. ``cutter`` is the shape that cuts, where it is
-    not the areas drawn (an outlined petal hides what lies under the whole petal). ``whole`` leaves out
-    marks that would be cut, as nobody waxes half a dot; ``margin`` (mm) is how far a line drawn round
-    the areas by another sheet reaches beyond them, so that both are kept or left out together.
-    """
-
-    name: str
-    ink: Ink | None
-    areas: Geometries = field(default_factory=_none)
-    lines: Geometries = field(default_factory=_none)
-    gap: float | None = None
-    cutter: Geometries = field(default_factory=_none)
-    whole: bool = False
-    margin: float = 0.0
-
-
-@dataclass
-class _Marks:
-    """Marks in grid steps, and for each of them the index of its sheet's name."""
-
-    geometries: Geometries = field(default_factory=_none)
-    names: NDArray[np.intp] = field(default_factory=lambda: np.empty(0, np.intp))
-
-    def extend(self, other: _Marks) -> None:
-        self.geometries = np.concatenate([other.geometries, self.geometries])
-        self.names = np.concatenate([other.names, self.names])
-
-
-def quad_segs(radius: float, tolerance: float) -> int:
-    """Return into how many pieces a buffer must cut a quarter turn to keep the tolerance (both in mm)."""
-    if radius <= tolerance:
-        return 2
-    return max(2, int(np.ceil(np.pi / 4 / np.arccos(1 - tolerance / radius))))
 
 
 def assemble(
@@ -117,9 +58,11 @@ def assemble(
         SeamError: where opposite edges disagree however the seam is placed.
     """
     _refuse_too_many(sheets, cell, lattice)
+    stock = Stock()
+    pile = Pile(sheets, stock, tolerance)
     for phase in range(PHASES):
-        torus = _Torus(cell, lattice, np.array([PHASE_STEP], np.int64) * phase)
-        layers = _assemble_on(torus, sheets, inks, tolerance)
+        torus = Torus(stock, cell, lattice, np.array(PHASE_STEP, np.int64) * phase)
+        layers = _assemble_on(torus, pile, inks)
         if layers is not None:
             return layers, frozenset(torus.borders)
     raise SeamError(f"opposite edges of the tile disagree at {PHASES} positions of the seam")
@@ -148,210 +91,127 @@ def _refuse_too_many(sheets: Sequence[Sheet], cell: Cell, lattice: Lattice) -> N
         )
 
 
-def _assemble_on(
-    torus: _Torus, sheets: Sequence[Sheet], inks: Sequence[Ink], tolerance: float
-) -> tuple[Layer, ...] | None:
+def _assemble_on(torus: Torus, pile: Pile, inks: Sequence[Ink]) -> tuple[Layer, ...] | None:
     """Do the work of :func:`assemble` at one place of the seam; None where it falls badly."""
-    areas = {ink.name: _Marks() for ink in inks}
-    lines = {ink.name: _Marks() for ink in inks}
-    above: list[Sheet] = []
-    cutters = _none()
-    for number in range(len(sheets) - 1, -1, -1):
-        sheet = sheets[number]
-        if sheet.ink is not None:
-            filled, centre_lines = _uncut(sheet, torus, cutters)
-            drawn = torus.areas(filled, number)
-            strokes = torus.lines(centre_lines, number, sheet.ink.name)
-            if above and len(strokes.geometries):
-                # A line ends where its body, and not its centre, meets the gap.
-                shapes = [_cutting_shape(upper, tolerance, sheet.ink.width / 2) for upper in above]
-                bodies, _ = welded(torus.areas(np.concatenate(shapes), 0).geometries)
-                strokes = torus.cut_lines(strokes, bodies, sheet.ink.name)
-            areas[sheet.ink.name].extend(_cut(drawn, cutters, polygons_of))
-            lines[sheet.ink.name].extend(strokes)
-        if sheet.gap is not None:
-            above.append(sheet)
-            shape = torus.areas(_cutting_shape(sheet, tolerance, 0.0), 0).geometries
-            cutters, _ = welded(np.concatenate([cutters, shape]))
-    names = [sheet.name for sheet in sheets]
+    laid = joined([pile.drawn, pile.cutters()])
+    copies, of = torus.areas(laid.copies)
+    marks = of < len(pile.drawn.sheet)
+    cutters = Laid(copies, laid.sheet[of]).taken(~marks)
+    out, lines = _cut_into(torus, pile, cutters)
+    marks[marks] = ~out[of[marks]]
+    drawn = cut(torus.stock, Laid(copies, laid.sheet[of]).taken(marks), cutters)
+    strokes = [
+        (sheet.ink.name, _strokes(torus, pile, number, lines[number]))
+        for number, sheet in enumerate(pile.sheets)
+        if sheet.ink is not None and len(lines[number])
+    ]
+    numbers = {ink.name: number for number, ink in enumerate(inks)}
+    ink_of = np.array([-1 if sheet.ink is None else numbers[sheet.ink.name] for sheet in pile.sheets], int)
+    drawn = _merged(torus.stock, drawn, ink_of, inks)
+    names = [sheet.name for sheet in pile.sheets]
     layers = []
-    for ink in inks:
-        merged = _merge(areas[ink.name], ink.overlap)
-        merged.geometries = seams.mended(merged.geometries, torus.cell)
-        if not torus.seam_holds(ink.name, merged.geometries):
+    for number, ink in enumerate(inks):
+        mine = drawn.taken(ink_of[drawn.sheet] == number)
+        sealed = torus.sealed(ink.name, mine.copies)
+        if sealed is None:
             return None
-        once = drawn_once(lines[ink.name].geometries, lines[ink.name].names)
+        own = [each for name, each in strokes if name == ink.name]
+        once = drawn_once(*_together(own))
         torus.record_ends(ink.name, once[0])
-        layers.append(_layer(ink, merged, once, names))
+        layers.append(_layer(ink, torus.stock, Laid(sealed, mine.sheet), once, names))
     return tuple(layer for layer in layers if len(layer.areas) or len(layer.lines))
 
 
-class _Torus:
-    """Wraps marks round the cell, cuts them at its edges, and remembers what of them lay on the seam."""
-
-    def __init__(self, cell: Cell, lattice: Lattice, phase: NDArray[np.int64]) -> None:
-        self.cell, self.lattice, self.phase = cell, lattice, phase
-        self.window = Window(0, 0, cell.columns, cell.rows)
-        self.allowed: list[NDArray[np.int64]] = []
-        self.borders: list[tuple[str, int, int, int]] = []
-        self.ends: dict[str, Places] = {}
-
-    def areas(self, marks: Geometries, name: int | NDArray[np.intp]) -> _Marks:
-        pieces, names = polygons_of(
-            to_step_grid(marks), np.broadcast_to(np.asarray(name, np.intp), len(marks))
-        )
-        pieces = translate(pieces, np.repeat(self.phase, len(pieces), axis=0))
-        pieces, names = wrap(pieces, names, self.lattice, self.window)
-        self.allowed.append(seams.on_seam(pieces, self.window))
-        return _Marks(*clip_areas(pieces, names, self.window))
-
-    def lines(self, marks: Geometries, name: int, ink: str) -> _Marks:
-        pieces = to_step_grid(marks)
-        pieces = pieces[shapely.length(pieces) > 0] if len(pieces) else pieces
-        pieces = translate(pieces, np.repeat(self.phase, len(pieces), axis=0))
-        pieces, names = wrap(pieces, np.full(len(pieces), name, np.intp), self.lattice, self.window)
-        self.ends.setdefault(ink, set()).update(own_ends(pieces, self.cell))
-        return _Marks(*clip_lines(pieces, names, self.window))
-
-    def cut_lines(self, lines: _Marks, cutters: Geometries, ink: str) -> _Marks:
-        """Cut lines by cutters that do not overlap; one that is cut off up to the seam ends there."""
-        cut = _cut(lines, cutters, lines_of)
-        ended = lone_ends(cut.geometries, self.cell) - lone_ends(lines.geometries, self.cell)
-        if ended:
-            torn = [
-                row
-                for row in self._torn(seams.mismatch(cutters, self.cell))
-                if row[2] - row[1] > seams.MEND_STEPS
-            ]
-            self.ends[ink] |= {place for place in ended if not _lies_in(place, torn)}
-        return cut
-
-    def record_ends(self, ink: str, lines: Geometries) -> None:
-        """Note where lines end on the seam on purpose, as borders of no length."""
-        meant = self.ends.get(ink, set()) & lone_ends(lines, self.cell)
-        self.borders += [(ink, 0, y, y) if x == 0 else (ink, 1, x, x) for x, y in sorted(meant)]
-
-    def seam_holds(self, ink: str, areas: Geometries) -> bool:
-        """Whether opposite edges agree, but for borders that were drawn along the seam on purpose."""
-        if not shapely.is_valid(areas).all():
-            return False
-        breaks = seams.mismatch(areas, self.cell)
-        if self._torn(breaks):
-            return False
-        self.borders += [(ink, axis, low, high) for axis, low, high in breaks.tolist()]
-        return True
-
-    def _torn(self, breaks: NDArray[np.int64]) -> list[tuple[int, int, int]]:
-        """Return what of breaks, rows of (axis, from, to), no mark's own border along the seam explains."""
-        if not len(breaks):
-            return []
-        allowed = np.concatenate(self.allowed)
-        found = []
-        for axis in (0, 1):
-            mine = seams.joined(breaks[breaks[:, 0] == axis, 1:])
-            legal = seams.joined(allowed[allowed[:, 0] == axis, 1:])
-            together = seams.joined(np.vstack([mine, legal]))
-            found += [(axis, low, high) for low, high in seams.symmetric_difference(together, legal).tolist()]
-        return found
+def _wrapped(torus: Torus, laid: Laid) -> Laid:
+    copies, of = torus.areas(laid.copies)
+    return Laid(copies, laid.sheet[of])
 
 
-def _lies_in(place: tuple[int, int], stretches: Sequence[tuple[int, int, int]]) -> bool:
-    """Whether a place on the seam lies within one of its stretches, given as (axis, from, to)."""
-    return any(place[axis] == 0 and low < place[1 - axis] < high for axis, low, high in stretches)
+def _together(parts: Sequence[Lines]) -> Lines:
+    return (
+        np.concatenate([np.empty(0, dtype=object), *(lines for lines, _ in parts)]),
+        np.concatenate([np.empty(0, np.intp), *(sheets for _, sheets in parts)]),
+    )
 
 
-def _uncut(sheet: Sheet, torus: _Torus, cutters: Geometries) -> tuple[Geometries, Geometries]:
-    """Return a sheet's areas and lines; of one that keeps whole marks only, those that nothing above cuts.
+def _cut_into(torus: Torus, pile: Pile, cutters: Laid) -> tuple[NDArray[np.bool_], list[Geometries]]:
+    """Return which areas are left out, being whole or nothing and cut; and what lines of each sheet stay.
 
     A mark is asked for as a whole, wherever the seam divides it, and with the body of its line; a closed
     line stands for what it encloses.
     """
-    if not sheet.whole or not len(cutters) or sheet.ink is None:
-        return sheet.areas, sheet.lines
-    areas = shapely.buffer(sheet.areas, sheet.margin) if sheet.margin else sheet.areas
-    shapes = sheet.lines.copy()
+    lines = [sheet.lines for sheet in pile.sheets]
+    out = np.zeros(len(pile.drawn.sheet), bool)
+    for number, sheet in enumerate(pile.sheets):
+        if not sheet.whole or sheet.ink is None or not len(cutters.sheet):
+            continue
+        mine = np.flatnonzero(pile.drawn.sheet == number)
+        # Growing divides no shape, so that each copy has one body.
+        out[mine[_hit(torus, pile.grown(pile.drawn.taken(mine), sheet.margin), cutters)]] = True
+        if len(sheet.lines):
+            copies, of = torus.stock.settled(_bodies(sheet.lines, sheet.ink.width / 2))
+            hit = _hit(torus, Laid(copies, np.full(len(copies), number)), cutters)
+            lines[number] = np.delete(sheet.lines, np.unique(of[hit]))
+    return out, lines
+
+
+def _hit(torus: Torus, marks: Laid, cutters: Laid) -> Index:
+    """Return which marks something above would cut into."""
+    pieces, of = torus.areas(marks.copies)
+    return np.unique(of[touched(torus.stock, Laid(pieces, marks.sheet[of]), cutters)])
+
+
+def _bodies(lines: Geometries, reach: float) -> Geometries:
+    """Return what lines (mm) cover when drawn; a closed one covers what it encloses."""
+    shapes = lines.copy()
     closed = shapely.is_closed(shapes) & (shapely.get_num_points(shapes) > 3)
     xy, ring = shapely.get_coordinates(shapes[closed], return_index=True)
     if closed.any():
         shapes[closed] = shapely.make_valid(shapely.polygons(shapely.linearrings(xy, indices=ring)))
-    bodies = shapely.buffer(shapes, sheet.ink.width / 2)
-    return (
-        np.delete(sheet.areas, _touched(torus, np.asarray(areas, dtype=object), cutters)),
-        np.delete(sheet.lines, _touched(torus, np.asarray(bodies, dtype=object), cutters)),
-    )
+    return np.asarray(shapely.buffer(shapes, reach), dtype=object)
 
 
-def _touched(torus: _Torus, shapes: Geometries, cutters: Geometries) -> NDArray[np.intp]:
-    """Return which shapes (mm) cutters on the torus would cut into."""
-    if not len(shapes):
-        return np.empty(0, np.intp)
-    pieces = torus.areas(shapes, np.arange(len(shapes)))
-    a, b = shapely.STRtree(cutters).query(pieces.geometries, predicate="intersects")
-    cut = shapely.relate_pattern(pieces.geometries[a], cutters[b], "T********")
-    return np.unique(pieces.names[a[cut]])
+def _strokes(torus: Torus, pile: Pile, number: int, lines: Geometries) -> Lines:
+    """Return what is left of a sheet's lines (mm): each ends where its body meets a gap, not its centre."""
+    ink = pile.sheets[number].ink
+    assert ink is not None
+    strokes = torus.lines(lines, number, ink.name)
+    if not len(strokes[0]):
+        return strokes
+    above = pile.cutters(above=number, extra=ink.width / 2)
+    if not len(above.sheet):
+        return strokes
+    bodies, _ = weld(torus.stock, _wrapped(torus, above).copies)
+    return torus.cut_lines(strokes, torus.stock.geometries(bodies), ink.name)
 
 
-def _cutting_shape(sheet: Sheet, tolerance: float, extra: float) -> Geometries:
-    """Return what a sheet cuts away beneath it (mm): its shape, grown by its gap and by ``extra``."""
-    shape = sheet.cutter if len(sheet.cutter) else sheet.areas
-    grow = (sheet.gap or 0.0) + extra
-    parts = []
-    if len(shape):
-        parts.append(shapely.buffer(shape, grow, quad_segs=quad_segs(grow, tolerance)) if grow > 0 else shape)
-    if len(sheet.lines) and sheet.ink is not None and not len(sheet.cutter):
-        grow += sheet.ink.width / 2
-        parts.append(shapely.buffer(sheet.lines, grow, quad_segs=quad_segs(grow, tolerance)))
-    return np.concatenate(parts) if parts else _none()
-
-
-def _cutters_of(marks: Geometries, cutters: Geometries) -> tuple[NDArray[np.intp], Geometries]:
-    """Return which marks are touched by cutters (which do not overlap), and for each those that touch it."""
-    mark, cutter = shapely.STRtree(cutters).query(marks, predicate="intersects")
-    order = np.lexsort([cutter, mark])
-    rows, number = np.unique(mark[order], return_inverse=True)
-    if not len(rows):
-        return rows, np.empty(0, dtype=object)
-    return rows, np.asarray(shapely.multipolygons(cutters[cutter[order]], indices=number), dtype=object)
-
-
-def _cut(marks: _Marks, cutters: Geometries, pieces_of: Pieces) -> _Marks:
-    """Cut marks by cutters that do not overlap; ``pieces_of`` takes apart what is left of each."""
-    if not len(marks.geometries) or not len(cutters):
-        return marks
-    rows, away = _cutters_of(marks.geometries, cutters)
-    if not len(rows):
-        return marks
-    left = overlay.less(marks.geometries[rows], away)
-    pieces, names = pieces_of(left, marks.names[rows])
-    whole = np.ones(len(marks.geometries), bool)
-    whole[rows] = False
-    return _Marks(
-        np.concatenate([marks.geometries[whole], pieces]), np.concatenate([marks.names[whole], names])
-    )
-
-
-def _merge(marks: _Marks, overlap: Overlap) -> _Marks:
+def _merged(stock: Stock, drawn: Laid, ink_of: Index, inks: Sequence[Ink]) -> Laid:
     """Weld the marks of an ink where they meet; an overlay keeps them, and drops exact repeats."""
-    areas = marks.geometries
-    if len(areas) < 2:
-        return marks
-    if overlap == Overlap.OVERLAY:
-        # A vertex on a straight edge, as cutting leaves, makes no other mark.
-        bare = shapely.normalize(shapely.simplify(areas, 0))
-        _, first = np.unique(shapely.to_wkb(bare), return_index=True)
-        first.sort()
-        return _Marks(areas[first], marks.names[first])
-    joined, first = welded(areas)
-    return _Marks(joined, marks.names[first])
+    over = np.array([ink.overlap == Overlap.OVERLAY for ink in inks], bool)
+    ink = ink_of[drawn.sheet]
+    kept = [
+        drawn.taken(_first_drawn(stock, drawn, np.flatnonzero(ink == each))) for each in np.flatnonzero(over)
+    ]
+    mine = drawn.taken(~over[ink])
+    copies, first = weld(stock, mine.copies, ink_of[mine.sheet])
+    return joined([Laid(copies, mine.sheet[first]), *kept])
 
 
-def _layer(ink: Ink, areas: _Marks, lines: tuple[Geometries, NDArray[np.intp]], names: list[str]) -> Layer:
+def _first_drawn(stock: Stock, drawn: Laid, which: Index) -> Index:
+    """Return those of some copies that repeat none before them."""
+    # A vertex on a straight edge, as cutting leaves, makes no other mark.
+    bare = shapely.normalize(shapely.simplify(stock.geometries(drawn.copies.taken(which)), 0))
+    _, first = np.unique(shapely.to_wkb(bare), return_index=True)
+    return which[np.sort(first)]
+
+
+def _layer(ink: Ink, stock: Stock, areas: Laid, lines: Lines, names: Sequence[str]) -> Layer:
     """Return a layer in mm from marks in grid steps."""
-    polygons = oriented(areas.geometries) if len(areas.geometries) else areas.geometries
+    polygons = stock.in_mm(areas.copies)
     return Layer(
         ink,
-        to_mm(polygons),
+        polygons,
         to_mm(lines[0]),
-        tuple(names[i] for i in areas.names),
+        tuple(names[i] for i in areas.sheet),
         tuple(names[i] for i in lines[1]),
     )

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 import shapely
@@ -15,12 +14,13 @@ from batik_vector.geometry.sampling import Array, Indices
 from batik_vector.tiling.layouts.grounds import Stripes
 from batik_vector.tiling.torus import Lattice, Steps, to_mm
 from batik_vector.units import STEPS_PER_MM
+from batik_vector.values import frozen
 
 NODE = 1e-9
 """How near to 0 or 1 an x must be to be an end of a link; floats of curves stray no farther."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Courses:
     """Where the lines of a ground run.
 

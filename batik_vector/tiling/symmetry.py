@@ -10,7 +10,6 @@ import enum
 import functools
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from fractions import Fraction
 
 from batik_vector.artwork import Cell, DropAxis
@@ -19,6 +18,7 @@ from batik_vector.geometry.maps.affine import Affine
 from batik_vector.tiling.groups import GROUPS, Group, Kind, Operation, Pair, multiplied, whole_cells
 from batik_vector.tiling.orbits import Orbit, Region, Shift
 from batik_vector.units import STEPS_PER_MM, format_mm, to_steps
+from batik_vector.values import frozen
 
 HALF = Fraction(1, 2)
 
@@ -37,7 +37,7 @@ class Spread(enum.StrEnum):
     a mark meet along the mirrors."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Frame:
     """A repeat, as its symmetries see it.
 

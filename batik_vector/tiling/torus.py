@@ -9,7 +9,7 @@ x = W are the same bits.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import shapely
@@ -18,13 +18,14 @@ from numpy.typing import NDArray
 from batik_vector.artwork import Geometries
 from batik_vector.tiling import overlay
 from batik_vector.units import STEPS_PER_MM
+from batik_vector.values import frozen
 
 Steps = NDArray[np.int64]
 Lattice = tuple[tuple[int, int], tuple[int, int]]
 """Two translations in grid steps; the first or the second is parallel to its axis."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Window:
     """An axis-parallel rectangle in grid steps."""
 
@@ -101,21 +102,33 @@ def wrap(
     marks, names = marks[there], names[there]
     if not len(marks):
         return marks, names
+    which, shift = translates(shapely.bounds(marks), lattice, window, reach)
+    return translate(marks[which], shift), names[which]
+
+
+def translates(
+    bounds: NDArray[np.float64] | Steps, lattice: Lattice, window: Window, reach: float = 0.0
+) -> tuple[NDArray[np.intp], Steps]:
+    """Return the lattice translates that come within ``reach`` of a window: (which, shift).
+
+    Args:
+        bounds: left, lower, right and upper edge of each mark in grid steps, shape (n, 4).
+        lattice, window, reach: as for :func:`wrap`.
+    """
     (ax, ay), (bx, by) = lattice
-    low_x, low_y, high_x, high_y = shapely.bounds(marks).T
+    low_x, low_y, high_x, high_y = bounds.T
     box = (window.left - reach, window.bottom - reach, window.right + reach, window.top + reach)
     if bx == 0:
         which, i, j = _ranges((low_x, high_x), (low_y, high_y), (ax, ay, by), box)
     else:
         swapped = (box[1], box[0], box[3], box[2])
         which, j, i = _ranges((low_y, high_y), (low_x, high_x), (by, bx, ax), swapped)
-    shift = np.column_stack([i * ax + j * bx, i * ay + j * by])
-    return translate(marks[which], shift), names[which]
+    return which, np.column_stack([i * ax + j * bx, i * ay + j * by])
 
 
 def _ranges(
-    major: tuple[NDArray[np.float64], NDArray[np.float64]],
-    minor: tuple[NDArray[np.float64], NDArray[np.float64]],
+    major: tuple[NDArray[Any], NDArray[Any]],
+    minor: tuple[NDArray[Any], NDArray[Any]],
     lattice: tuple[int, int, int],
     box: tuple[float, float, float, float],
 ) -> tuple[NDArray[np.intp], Steps, Steps]:
@@ -142,7 +155,7 @@ def _spread(first: Steps, last: Steps) -> tuple[NDArray[np.intp], Steps]:
 
 def translate(marks: Geometries, shift: Steps) -> Geometries:
     """Return each mark moved by its own shift, shape (n, 2): exact on whole grid steps."""
-    if not len(marks):
+    if not shift.any():
         return marks
     coords, owner = shapely.get_coordinates(marks, return_index=True)
     return np.asarray(shapely.set_coordinates(marks.copy(), coords + shift[owner]), dtype=object)

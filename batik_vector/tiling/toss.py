@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -12,7 +12,8 @@ import shapely
 
 from batik_vector.artwork import Geometries
 from batik_vector.errors import GeometryError, TooLargeError
-from batik_vector.geometry.maps.affine import Affine
+from batik_vector.geometry.maps.affine import IDENTITY, Affine
+from batik_vector.geometry.maps.affines import Affines, turns
 from batik_vector.geometry.sampling import Array
 from batik_vector.tiling.darts import Dice, Rules, Spacing, thrown
 from batik_vector.tiling.layouts.grounds import Toss
@@ -20,6 +21,7 @@ from batik_vector.tiling.marks import Field, Kit, Poses
 from batik_vector.tiling.scatter import Scatter, Torus
 from batik_vector.tiling.settling import settled
 from batik_vector.units import STEPS_PER_MM, format_mm
+from batik_vector.values import frozen
 
 MOST_MARKS = 20_000
 """Marks of one toss. A cloth of more is a ground: smaller, and repeated."""
@@ -44,7 +46,7 @@ EARLY_TRIES = 150
 """Darts that must miss in a row before marks that are few are thrown closer together."""
 
 
-@dataclass(frozen=True)
+@frozen
 class TossReport:
     """What a toss has put down on one repeat.
 
@@ -65,7 +67,7 @@ class TossReport:
     darts: int
 
 
-@dataclass(frozen=True)
+@frozen
 class Marks:
     """The motifs of a toss as they are at their least size, each in its own frame, in mm.
 
@@ -79,7 +81,7 @@ class Marks:
     reach: float = 0.0
 
 
-@dataclass(frozen=True)
+@frozen
 class Tossed:
     """A finished toss.
 
@@ -89,7 +91,7 @@ class Tossed:
         report: how it went.
     """
 
-    copies: tuple[list[Affine], ...]
+    copies: tuple[Affines, ...]
     field: Field
     report: TossReport
 
@@ -215,7 +217,7 @@ def _part(total: int, parts: int, number: int) -> int:
     return total * (number + 1) // parts - total * number // parts
 
 
-@dataclass(frozen=True)
+@frozen
 class _Plan:
     """How many marks of each motif are wanted, and which come first.
 
@@ -316,25 +318,18 @@ def _check_count(spec: Toss, scatter: Scatter, marks: Marks) -> None:
         )
 
 
-def _copies(scatter: Scatter, motif: int) -> list[Affine]:
+def _copies(scatter: Scatter, motif: int) -> Affines:
     """Return the maps of one motif, from its own frame in mm to its places."""
     poses = scatter.poses.take(scatter.poses.motif == motif)
     middle = scatter.kit.middles[motif] / STEPS_PER_MM
     to_middle = Affine.translation((-middle.real, -middle.imag))
-    stretch = Affine()
+    stretch = IDENTITY
     if scatter.torus.stretch is not None:
         (a, b), (c, d) = scatter.torus.stretch.tolist()
         stretch = Affine(a, b, c, d)
-    return [
-        Affine.translation((place.real / STEPS_PER_MM, place.imag / STEPS_PER_MM))
-        @ stretch
-        @ Affine.turn(turn)
-        @ Affine.scale(-size if flip else size, size)
-        @ to_middle
-        for size, turn, flip, place in zip(
-            poses.size.tolist(), poses.turn.tolist(), poses.flip.tolist(), poses.place.tolist(), strict=True
-        )
-    ]
+    places = np.column_stack([poses.place.real, poses.place.imag]) / STEPS_PER_MM
+    sized = Affines.scales(np.where(poses.flip, -poses.size, poses.size), poses.size)
+    return Affines.translations(places) @ stretch @ turns(poses.turn.tolist()) @ sized @ to_middle
 
 
 def _report(scatter: Scatter, spec: Toss, marks: Marks, darts: int) -> TossReport:

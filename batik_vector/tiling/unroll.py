@@ -8,7 +8,7 @@ cell.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import shapely
@@ -21,12 +21,13 @@ from batik_vector.tiling.paths import Ends, ends_of, paths_of
 from batik_vector.tiling.rings import rings_of, whole
 from batik_vector.tiling.torus import polygons_of
 from batik_vector.tiling.weld import components
+from batik_vector.values import frozen
 
 Meetings = tuple[Index, Index, Steps]
 """Pieces that are one across a seam: (one, other, the other's cell from the one's, in lattice steps)."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Unrolled:
     """The marks of one ink and kind: whole ones, each once, and the pieces in the cell of endless ones.
 
@@ -91,7 +92,7 @@ def unrolled_areas(areas: Outlines, cell: Cell, weld: bool) -> Unrolled:
     return found
 
 
-@dataclass(frozen=True)
+@frozen
 class _Marks:
     """Pieces that seams divided, with their names, the mark of each, and how far it lies from the first's."""
 

@@ -8,17 +8,15 @@ A page is never held as a whole: each time it is drawn its marks are placed anew
 
 from __future__ import annotations
 
-import enum
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from typing import Annotated, Any, Protocol, TypeAlias
+from dataclasses import field, replace
+from typing import Any, Protocol
 
 import numpy as np
 import shapely
 
 from batik_vector.artwork import Artwork, Cell, Geometries, Ink, Layer, Margins, Plate, Provenance
 from batik_vector.errors import GeometryError, TooLargeError
-from batik_vector.fields import Between, Length, Says, check, choice
 from batik_vector.outlines import MM, Outlines, Steps, nothing, of_polygons, of_polylines
 from batik_vector.tiling.clusters import clustered
 from batik_vector.tiling.cutting import PIECE, Filling
@@ -27,77 +25,12 @@ from batik_vector.tiling.fill import filled_areas, filled_lines
 from batik_vector.tiling.guides import Guides, guide_ink
 from batik_vector.tiling.torus import Window
 from batik_vector.tiling.unroll import Unrolled
+from batik_vector.tiling.yardspec import Align, Edge, YardageSpec
 from batik_vector.units import STEPS_PER_MM, format_mm, to_steps
+from batik_vector.values import frozen
 
-MAX_WIDTH_MM = 20_000.0
-MAX_LENGTH_MM = 200_000.0
-MAX_VERTICES = 400_000_000
-"""Vertices that a cloth may be allowed at most: an SVG of them has some 6 GB."""
-
-Move: TypeAlias = Annotated[Length, Between(-MAX_WIDTH_MM, MAX_WIDTH_MM)]
 Box = tuple[float, float, float, float]
 """Left, bottom, right and top in mm on cloth."""
-
-
-class Edge(enum.StrEnum):
-    """What becomes of marks at the edge of the printed area."""
-
-    TRIM = "trim"
-    """They are cut there."""
-    BLEED = "bleed"
-    """They go on beyond it as far as ``bleed`` says, and are cut there."""
-    WHOLE = "whole"
-    """Motifs that would be cut are left out. Marks without end, as bars, are cut all the same."""
-
-
-class Align(enum.StrEnum):
-    """Where the repeat starts."""
-
-    CORNER = "corner"
-    """A tile's lower left corner lies in the field's."""
-    CENTRE = "centre"
-    """A tile's middle lies in the field's."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class YardageSpec:
-    """A cloth of given size, filled from the tile."""
-
-    width: Annotated[Annotated[Length, Between(1, MAX_WIDTH_MM)], Says("breadth of the printed area")]
-    length: Annotated[
-        Annotated[Length, Between(1, MAX_LENGTH_MM)] | None, Says("one repeat when left out")
-    ] = None
-    edge: Annotated[Edge, Says("what becomes of marks at the edge: trim, bleed or whole")] = Edge.TRIM
-    bleed: Annotated[
-        Annotated[Length, Between(0, 100)], Says('how far marks go on beyond the edge with edge = "bleed"')
-    ] = 5.0
-    selvedge: Annotated[
-        Annotated[Length, Between(0, 500)], Says("bare cloth left and right of the printed area")
-    ] = 0.0
-    marks: Annotated[
-        bool, Says("trim marks, crosses, repeats and a bar of 100 mm, on a layer that plotters skip")
-    ] = False
-    align: Annotated[Align, Says("where the repeat starts: in a corner or in the centre")] = Align.CORNER
-    phase: Annotated[tuple[Move, Move], Says("move of the repeat from there")] = (0.0, 0.0)
-
-    limit: Annotated[int, Between(1000, MAX_VERTICES), Says("vertices past which the cloth is refused")] = (
-        50_000_000
-    )
-
-    def __post_init__(self) -> None:
-        check(self)
-        object.__setattr__(self, "edge", choice(Edge, self.edge, "edge"))
-        object.__setattr__(self, "align", choice(Align, self.align, "align"))
-
-    @property
-    def bleed_steps(self) -> int:
-        """How far the field goes on beyond the printed area, in grid steps."""
-        return to_steps(self.bleed) if self.edge == Edge.BLEED else 0
-
-    def size(self, cell: Cell) -> tuple[int, int]:
-        """Return the breadth and length of the printed area in grid steps, given the tile's cell."""
-        length = cell.rectangle.rows if self.length is None else to_steps(self.length)
-        return to_steps(self.width), length
 
 
 class Frame(Protocol):
@@ -116,7 +49,7 @@ class Frame(Protocol):
         """The window, or what is left of it where its corners are rounded."""
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class _Drawn:
     """One ink on the cloth: the tile's marks off the torus, and the borders' in steps.
 
@@ -141,7 +74,7 @@ def _any(marks: Unrolled) -> bool:
     return len(marks.whole) + len(marks.endless) > 0
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class Yardage:
     """A cloth as a page that comes in pieces; see :class:`~batik_vector.artwork.Page`.
 

@@ -21,7 +21,8 @@ from batik_vector.errors import GeometryError, UnknownNameError
 from batik_vector.model import Recipe
 from batik_vector.recipe import read_recipe
 from batik_vector.tiling.field import with_bleed
-from batik_vector.tiling.stack import Sheet, assemble
+from batik_vector.tiling.sheets import Sheet
+from batik_vector.tiling.stack import assemble
 from tests.certificate.tiles import AREAS, LINES, OVERLAY, PEN, WAX, added, marks, strokes, tile
 from tests.recipes import REPEATS, recipes
 from tests.tiling.test_seamless import compiled, many

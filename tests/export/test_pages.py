@@ -15,6 +15,7 @@ import pytest
 import shapely
 from ezdxf.filemanagement import read
 
+from batik_vector import artwork
 from batik_vector.artwork import Artwork, Cell, Ink, Layer, Margins, Overlap
 from batik_vector.errors import ExportError, UnsupportedByFormatError
 from batik_vector.export import (
@@ -31,7 +32,8 @@ from batik_vector.export import (
     write_page,
 )
 from batik_vector.outlines import MM, Outlines, of_polylines
-from batik_vector.tiling.yardage import YardageSpec, compile_yardage
+from batik_vector.tiling.yardage import compile_yardage
+from batik_vector.tiling.yardspec import YardageSpec
 
 from .drawings import InPieces, disc, geometries, line, sample
 from .readers import pdf_rings, svg_layers, svg_rings
@@ -52,6 +54,19 @@ SETTINGS: list[tuple[str, Any]] = [
 @pytest.mark.parametrize(("format", "options"), SETTINGS)
 def test_pieces_make_the_same_bytes(format: str, options: Any, rings: int) -> None:
     assert render(InPieces(sample(), rings), format, options) == render(sample(), format, options)
+
+
+@pytest.mark.parametrize("piece", [1, 40, 700])
+@pytest.mark.parametrize(("format", "options"), SETTINGS)
+def test_an_artwork_handed_over_in_pieces_makes_the_same_bytes(
+    monkeypatch: pytest.MonkeyPatch, format: str, options: Any, piece: int
+) -> None:
+    whole = [render(page, format, options) for page in (sample(2.0), crowd())]
+    monkeypatch.setattr(artwork, "PIECE", piece)
+    pieces = list(crowd().areas(0))
+    assert len(pieces) > (piece < 700) * 10
+    assert [name for each in pieces for name in each.names] == list(crowd().layers[0].area_names)
+    assert [render(page, format, options) for page in (sample(2.0), crowd())] == whole
 
 
 def opened_dxf(data: bytes) -> Any:

@@ -11,6 +11,7 @@ from batik_vector.errors import GeometryError, TooLargeError
 from batik_vector.geometry.coincide import drawn_once
 from batik_vector.geometry.ifs import Ifs, distinct
 from batik_vector.geometry.maps import Affine, FlameMap, Geometries, JuliaN, Linear
+from batik_vector.geometry.maps.affines import Affines
 from tests.geometry.maps.measure import array_of, optimum, outlines
 
 TOLERANCE = 1e-3
@@ -28,7 +29,7 @@ def flower(petals: int, count: int = 240, size: float = 1.0) -> Geometries:
     return array_of(shapely.Polygon(np.column_stack([radius * np.cos(t), radius * np.sin(t)])))
 
 
-def images(ifs: Ifs) -> list[Affine]:
+def images(ifs: Ifs) -> Affines:
     found = ifs.affine_images()
     assert found is not None
     return found
@@ -81,7 +82,7 @@ def test_levels_compose() -> None:
     one = images(layout((4 / 3, 0.2), 1))
     expected = {tuple(np.round([m.a, m.b, m.e, m.f], 9) + 0.0) for m in (a @ b for a in one for b in one)}
     assert {tuple(np.round([m.a, m.b, m.e, m.f], 9) + 0.0) for m in two} == expected
-    assert images(layout((4 / 3, 0.2), 0)) == [Affine()]
+    assert list(images(layout((4 / 3, 0.2), 0))) == [Affine()]
     assert images(layout((4 / 3, 0.2), 3)) == images(layout((4 / 3, 0.2), 3))
 
 

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from batik_vector.model import Recipe
 from batik_vector.reading.quick import UnsureError, built
-from batik_vector.recipe import _validated
+from batik_vector.reading.slow import validated
 
 FOLDER = Path(__file__).resolve().parents[2] / "samples"
 SAMPLES = {path.stem: tomllib.loads(path.read_text("utf-8")) for path in sorted(FOLDER.rglob("*.toml"))}
@@ -37,7 +37,7 @@ def changed(table: dict[str, Any], path: tuple[Any, ...], value: Any) -> dict[st
 @pytest.mark.parametrize("name", SAMPLES)
 def test_every_sample_is_read_the_short_way_and_as_pydantic_reads_it(name: str) -> None:
     quick = built(Recipe, SAMPLES[name])
-    slow, found = _validated(SAMPLES[name])
+    slow, found = validated(SAMPLES[name])
     assert not found
     assert quick == slow
     # Equal is not the same: 1 == 1.0 == True.
@@ -61,7 +61,7 @@ def test_what_it_accepts_after_any_change_pydantic_accepts_alike(data: st.DataOb
         quick = built(Recipe, table)
     except UnsureError:
         return
-    slow, found = _validated(table)
+    slow, found = validated(table)
     assert not found
     assert repr(quick) == repr(slow)
 

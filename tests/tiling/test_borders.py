@@ -12,9 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from batik_vector.artwork import Geometries, Ink
+from batik_vector.artwork import Ink
 from batik_vector.errors import GeometryError
-from batik_vector.tiling import stack
 from batik_vector.tiling.bands import Band, Marks, mitred, solved, spans
 from batik_vector.tiling.bends import bent
 from batik_vector.tiling.borders import (
@@ -27,9 +26,11 @@ from batik_vector.tiling.borders import (
     straight,
     turned_corners,
 )
+from batik_vector.tiling.congruent import Copies
 from batik_vector.tiling.joints import closed, straightened
-from batik_vector.tiling.stack import Sheet
+from batik_vector.tiling.sheets import Sheet
 from batik_vector.tiling.torus import Window
+from batik_vector.tiling.wrapping import Torus
 
 many = settings(max_examples=60, deadline=None, derandomize=True)
 INK = Ink("wax", "#f4efe2")
@@ -187,12 +188,12 @@ def test_the_two_edges_of_a_band_have_nothing_to_do_with_each_other() -> None:
 def test_a_seam_that_had_to_be_moved_moves_no_edge_of_the_band(
     periodic: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    true = stack._Torus.seam_holds
+    true = Torus.sealed
 
-    def holds(torus: stack._Torus, ink: str, areas: Geometries) -> bool:
-        return bool(torus.phase.any()) and true(torus, ink, areas)
+    def sealed(torus: Torus, ink: str, areas: Copies) -> Copies | None:
+        return true(torus, ink, areas) if torus.phase.any() else None
 
-    monkeypatch.setattr(stack._Torus, "seam_holds", holds)
+    monkeypatch.setattr(Torus, "sealed", sealed)
     bar = Sheet("bar", INK, np.array([shapely.box(8, 3, 30, 7)], dtype=object))
     ((_, found),) = solved([bar], [INK], (40_000, 12_000), periodic, 0.02, lambda name: 0)
     x0, y0, x1, y1 = shapely.total_bounds(found.areas).tolist()

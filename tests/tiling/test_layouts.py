@@ -13,6 +13,7 @@ from batik_vector.artwork import Artwork
 from batik_vector.errors import GeometryError
 from batik_vector.geometry.curves import Circle, Superellipse
 from batik_vector.geometry.maps.affine import Affine
+from batik_vector.geometry.maps.affines import Affines
 from batik_vector.model import Placement, Recipe
 from batik_vector.motif import Element
 from batik_vector.motif import Rosette as Figure
@@ -22,7 +23,7 @@ from batik_vector.tiling.layouts import Bend, RosetteLayout
 quick = settings(max_examples=60, deadline=None, derandomize=True)
 
 
-def copies(layout: RosetteLayout) -> list[Affine]:
+def copies(layout: RosetteLayout) -> Affines:
     found = layout.images((1.0, 1.0))
     assert not isinstance(found, Bend)
     return found

@@ -20,7 +20,8 @@ from batik_vector.model import Recipe
 from batik_vector.tiling.field import collected
 from batik_vector.tiling.once import drawn_once
 from batik_vector.tiling.torus import clip_areas, clip_lines, to_step_grid, wrap
-from batik_vector.tiling.yardage import Align, Edge, Yardage, YardageSpec, compile_yardage
+from batik_vector.tiling.yardage import Yardage, compile_yardage
+from batik_vector.tiling.yardspec import Align, Edge, YardageSpec
 from tests.recipes import recipes
 
 Shapes = NDArray[np.object_]

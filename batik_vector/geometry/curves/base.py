@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
 
 from batik_vector.fields import check
 from batik_vector.geometry.sampling import REFINE_SHARE, Array, Indices, Points, refine, thin
+from batik_vector.values import frozen
 
 LEAST_CORNERS = 6
 """Vertices that a ring keeps however coarse the tolerance."""
@@ -50,7 +50,7 @@ class Curve:
         return np.zeros(1)
 
 
-@dataclass(frozen=True)
+@frozen
 class Trace:
     """A curve as polylines: ``strands`` draw it, ``rings`` bound its region; both use the same vertices.
 
@@ -101,12 +101,9 @@ def _sample(curve: Curve, tolerance: float | Callable[[Points], Array]) -> tuple
     points = curve.at(t)
     if callable(tolerance):
         return t, points
-    keep = thin(
-        points,
-        np.array([0, len(points)], np.intp),
-        tolerance * (1 - REFINE_SHARE),
-        np.isin(t, knots),
-    )
+    given = np.zeros(len(t), bool)
+    given[np.searchsorted(t, knots)] = True
+    keep = thin(points, np.array([0, len(points)], np.intp), tolerance * (1 - REFINE_SHARE), given)
     for begin, stop in curve.loops():
         i, j = np.searchsorted(t, [begin - 1e-12, stop - 1e-12])
         if keep[i : j + 1].sum() <= LEAST_CORNERS:

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 
 from batik_vector.geometry.curves.base import Curve
 from batik_vector.geometry.sampling import Array, Points
+from batik_vector.values import frozen
 
 
-@dataclass(frozen=True)
+@frozen
 class FunctionCurve(Curve):
     """A curve whose points at t in [0, 1] a function returns, shape (n, 2).
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import Annotated, TypeAlias
 
 import numpy as np
@@ -12,6 +11,7 @@ from batik_vector.errors import GeometryError
 from batik_vector.fields import Between, Says, check
 from batik_vector.geometry.curves.base import Curve
 from batik_vector.geometry.sampling import Array, Points
+from batik_vector.values import frozen
 
 Wave: TypeAlias = tuple[
     Annotated[int, Between(0, 256)],
@@ -38,7 +38,7 @@ def _pauses(highest: int) -> Array:
     return np.arange(1, parts) / parts
 
 
-@dataclass(frozen=True)
+@frozen
 class Polar(Curve):
     """Polar curve r(θ) = radius + Σ amplitude·cos(frequency·θ + phase), drawn over [0, 2π)."""
 
@@ -65,7 +65,7 @@ class Polar(Curve):
         return _pauses(_highest(self.waves))
 
 
-@dataclass(frozen=True)
+@frozen
 class Parametric(Curve):
     """Closed curve x(t) = Σ waves in x, y(t) = Σ waves in y, t over [0, 2π): a Fourier series.
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
@@ -12,9 +11,10 @@ from batik_vector.errors import GeometryError
 from batik_vector.fields import Between, Says, check
 from batik_vector.geometry.curves.base import Curve
 from batik_vector.geometry.sampling import Array, Points
+from batik_vector.values import frozen
 
 
-@dataclass(frozen=True)
+@frozen
 class Hypocycloid(Curve):
     """Hypocycloid with q = m/n: x = (r/q)((q−1)cos t + cos((q−1)t)), y = (r/q)((q−1)sin t − sin((q−1)t)).
 

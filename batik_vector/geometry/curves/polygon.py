@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
@@ -10,6 +9,7 @@ import numpy as np
 from batik_vector.fields import Between, Says
 from batik_vector.geometry.curves.base import Curve
 from batik_vector.geometry.sampling import Array, Points
+from batik_vector.values import frozen
 
 
 class _Corners(Curve):
@@ -36,7 +36,7 @@ class _Corners(Curve):
         return np.arange(1, n) / n
 
 
-@dataclass(frozen=True)
+@frozen
 class Polygon(_Corners):
     """Regular polygon with its first corner on +x."""
 
@@ -49,7 +49,7 @@ class Polygon(_Corners):
         return np.column_stack([self.radius * np.cos(angle), self.radius * np.sin(angle)])
 
 
-@dataclass(frozen=True)
+@frozen
 class Star(_Corners):
     """Star of straight sides: points at ``radius``, notches between them at ``inner``."""
 

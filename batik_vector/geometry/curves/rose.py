@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import itertools
 import math
-from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
@@ -12,9 +11,10 @@ import numpy as np
 from batik_vector.fields import Between, Says
 from batik_vector.geometry.curves.base import Curve
 from batik_vector.geometry.sampling import Array, Points
+from batik_vector.values import frozen
 
 
-@dataclass(frozen=True)
+@frozen
 class Rose(Curve):
     """Rose (rhodonea), r = length·cos(nθ/d) with n/d in lowest terms.
 
@@ -61,7 +61,7 @@ class Rose(Curve):
         return [(float(a), float(b)) for a, b in itertools.pairwise(edges)]
 
 
-@dataclass(frozen=True)
+@frozen
 class Petal(Curve):
     """One petal of the rose r = length·cos(nθ), |θ| ≤ π/2n, from the centre along +x and back."""
 

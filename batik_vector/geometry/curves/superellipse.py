@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
@@ -10,9 +9,10 @@ import numpy as np
 from batik_vector.fields import Between, Says
 from batik_vector.geometry.curves.base import Curve
 from batik_vector.geometry.sampling import Array, Points
+from batik_vector.values import frozen
 
 
-@dataclass(frozen=True)
+@frozen
 class Superellipse(Curve):
     """Superellipse (Lamé curve), x = r1·sgn(cos t)·|cos t|^a, y = r2·sgn(sin t)·|sin t|^b.
 

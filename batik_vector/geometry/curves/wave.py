@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
 import numpy as np
@@ -10,9 +9,10 @@ import numpy as np
 from batik_vector.fields import Between, Says
 from batik_vector.geometry.curves.base import Curve
 from batik_vector.geometry.sampling import Array, Points
+from batik_vector.values import frozen
 
 
-@dataclass(frozen=True)
+@frozen
 class Wave(Curve):
     """Sine line y = amplitude · sin(2π · waves · x / length + phase), x from 0 to length.
 

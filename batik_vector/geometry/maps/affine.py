@@ -123,6 +123,11 @@ class Affine:
         return p, q
 
     @property
+    def linear(self) -> Affine:
+        """The same map without its shift."""
+        return Affine(self.a, self.b, self.c, self.d)
+
+    @property
     def is_identity(self) -> bool:
         """Whether the map moves nothing at all."""
         return self.row == (1.0, 0.0, 0.0, 1.0, 0.0, 0.0)
@@ -134,6 +139,9 @@ class Affine:
 
     def __matmul__(self, first: Affine) -> Affine:
         """Return the map that applies ``first`` and then this one."""
+        if not isinstance(first, Affine):
+            # Many maps know how to follow one.
+            return NotImplemented
         a, b, c, d = self.a, self.b, self.c, self.d
         return Affine(
             a * first.a + b * first.c,

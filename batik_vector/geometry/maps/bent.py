@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
@@ -10,9 +9,10 @@ import numpy as np
 from batik_vector.geometry.maps.affine import Complexes
 from batik_vector.geometry.maps.base import Variation
 from batik_vector.geometry.sampling import Array
+from batik_vector.values import frozen
 
 
-@dataclass(frozen=True)
+@frozen
 class Bent(Variation):
     """V(x, y) = (x or 2x where x < 0, y or y/2 where y < 0): a kink along both axes.
 

@@ -7,7 +7,6 @@ in one array of complex numbers, so that each step below is one call for a whole
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +15,7 @@ from batik_vector.errors import TooLargeError
 from batik_vector.geometry.maps.affine import Complexes
 from batik_vector.geometry.maps.flame import FlameMap
 from batik_vector.geometry.sampling import MAX_POINTS, Array, Indices
+from batik_vector.values import frozen
 
 NEAR = 1e-14
 """Relative to the drawing's reach: a curve that passes the branch point closer than this passes through
@@ -26,7 +26,7 @@ STATION_RATIO = 4.0
 samples see the bend however close and short it is."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Chains:
     """Polylines as arrays.
 
@@ -69,7 +69,7 @@ class Chains:
         return Chains(self.z[at], offsets, self.owner[which])
 
 
-@dataclass(frozen=True)
+@frozen
 class Angles:
     """Unwrapped polar angles of chains about the origin.
 

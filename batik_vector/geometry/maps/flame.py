@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple, TypeAlias
 
@@ -13,8 +12,10 @@ import shapely
 
 from batik_vector.errors import GeometryError
 from batik_vector.geometry.maps.affine import IDENTITY, Affine, Complexes
+from batik_vector.geometry.maps.affines import Affines
 from batik_vector.geometry.maps.base import Variation
 from batik_vector.geometry.sampling import Array, Geometries, Indices, Points
+from batik_vector.values import frozen
 
 STRETCH_CAP = 1e6
 """Where a map is infinitely steep (the origin of JuliaN with P2 < P1) a finite number must do. Curves
@@ -43,7 +44,7 @@ class Images(NamedTuple):
 NO_IMAGES = Images(np.empty(0, dtype=object), np.empty(0, np.intp), np.empty(0, np.intp))
 
 
-@dataclass(frozen=True)
+@frozen
 class FlameMap:
     """F = post ∘ (Σ_j w_j V_j) ∘ pre, carrying whole curves and regions.
 
@@ -207,10 +208,9 @@ def core_tolerance(flame: FlameMap, tolerance: Tolerance) -> Tolerance:
 
 
 def _affine_images(maps: list[Affine], marks: Geometries) -> Images:
-    images = [affine.apply(marks) for affine in maps]
     count = len(marks)
     return Images(
-        np.concatenate(images),
+        Affines.of(maps).apply(marks),
         np.tile(np.arange(count, dtype=np.intp), len(maps)),
         np.repeat(np.arange(len(maps), dtype=np.intp), count),
     )

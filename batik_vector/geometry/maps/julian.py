@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import Annotated, ClassVar, Literal
 
 import numpy as np
@@ -14,12 +13,13 @@ from batik_vector.fields import Between, Says
 from batik_vector.geometry.maps.affine import Complexes, unit_power
 from batik_vector.geometry.maps.base import Variation
 from batik_vector.geometry.sampling import Array
+from batik_vector.values import frozen
 
 Reading = Literal["rotate", "root", "literal"]
 READINGS: tuple[Reading, ...] = ("rotate", "root", "literal")
 
 
-@dataclass(frozen=True)
+@frozen
 class JuliaN(Variation):
     """JuliaN of power P1 and distance P2, k = 0 … |P1| − 1.
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
@@ -10,9 +9,10 @@ import numpy as np
 from batik_vector.geometry.maps.affine import Complexes
 from batik_vector.geometry.maps.base import Variation
 from batik_vector.geometry.sampling import Array
+from batik_vector.values import frozen
 
 
-@dataclass(frozen=True)
+@frozen
 class Linear(Variation):
     """V(x, y) = (x, y): leaves every point where it is.
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
@@ -10,9 +9,10 @@ import numpy as np
 from batik_vector.geometry.maps.affine import Complexes
 from batik_vector.geometry.maps.base import Variation
 from batik_vector.geometry.sampling import Array, Indices
+from batik_vector.values import frozen
 
 
-@dataclass(frozen=True)
+@frozen
 class Swirl(Variation):
     """V(x, y) = (x·sin r² − y·cos r², x·cos r² + y·sin r²), that is i·z·e^(−ir²).
 

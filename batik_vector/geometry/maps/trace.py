@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,11 +12,12 @@ from batik_vector.geometry.maps.chains import Angles, Chains
 from batik_vector.geometry.maps.flame import FlameMap, Tolerance
 from batik_vector.geometry.maps.thinning import thin_chains
 from batik_vector.geometry.sampling import REFINE_SHARE, Array, Indices, Points, refine
+from batik_vector.values import frozen
 
 __all__ = ["Traced", "trace_images"]
 
 
-@dataclass(frozen=True)
+@frozen
 class Traced:
     """Dense images of chains, in chain order, and which of their vertices the tolerance needs.
 

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Annotated, ClassVar, TypeAlias
 
 from batik_vector.fields import Between, check
 from batik_vector.geometry.ifs import Ifs
 from batik_vector.geometry.maps.affine import Affine
+from batik_vector.geometry.maps.affines import Affines
+from batik_vector.values import frozen
 
 Pair: TypeAlias = tuple[Annotated[float, Between(-1e4, 1e4)], Annotated[float, Between(-1e4, 1e4)]]
 """A vector in motif units."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Bend:
     """Images that are no affine copies: the motif is moved by ``first`` and carried through ``system``."""
 
@@ -21,10 +22,10 @@ class Bend:
     system: Ifs
 
 
-def carried(first: Affine, system: Ifs) -> list[Affine] | Bend:
+def carried(first: Affine, system: Ifs) -> Affines | Bend:
     """Return what a system makes of a motif that ``first`` has moved: copies where no map bends."""
     affine = system.affine_images()
-    return Bend(first, system) if affine is None else [image @ first for image in affine]
+    return Bend(first, system) if affine is None else affine @ first
 
 
 class Layout:
@@ -35,6 +36,9 @@ class Layout:
     def __post_init__(self) -> None:
         check(self)
 
-    def images(self, cell: tuple[float, float]) -> list[Affine] | Bend:
-        """Return the images of the motif; ``cell`` is the repeat's width and height in motif units."""
+    def images(self, cell: tuple[float, float]) -> Affines | Bend:
+        """Return the images of the motif; ``cell`` is the repeat's width and height in motif units.
+
+        Of a layout that ``spreads``, the cell changes nothing.
+        """
         raise NotImplementedError

@@ -3,27 +3,30 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from typing import Annotated, ClassVar
+
+import numpy as np
 
 from batik_vector.errors import GeometryError
 from batik_vector.fields import Between, Says, Text, check
-from batik_vector.geometry.maps.affine import Affine, unit_power
+from batik_vector.geometry.maps.affine import IDENTITY, Affine, unit_power
+from batik_vector.geometry.maps.affines import Affines, turns
 from batik_vector.tiling.layouts.base import Bend, Layout, Pair
+from batik_vector.values import frozen
 
 
-@dataclass(frozen=True, kw_only=True)
+@frozen(kw_only=True)
 class Single(Layout):
     """The motif once."""
 
     turn: Annotated[float, Between(-360, 360), Says("degrees the motif is turned")] = 0.0
 
-    def images(self, cell: tuple[float, float]) -> list[Affine] | Bend:
+    def images(self, cell: tuple[float, float]) -> Affines | Bend:
         """One image."""
-        return [Affine.turn(self.turn)]
+        return Affines.of([Affine.turn(self.turn)])
 
 
-@dataclass(frozen=True, kw_only=True)
+@frozen(kw_only=True)
 class Ring(Layout):
     """Copies on a circle, each turned with it or all upright."""
 
@@ -32,16 +35,15 @@ class Ring(Layout):
     upright: Annotated[bool, Says("keep every copy upright instead of turning it with the ring")] = False
     turn: Annotated[float, Between(-360, 360), Says("degrees to which the first copy is turned")] = 0.0
 
-    def images(self, cell: tuple[float, float]) -> list[Affine] | Bend:
+    def images(self, cell: tuple[float, float]) -> Affines | Bend:
         """One image per copy."""
         out = Affine.translation((self.radius, 0))
         angles = [self.turn + 360 * k / self.count for k in range(self.count)]
-        if self.upright:
-            return [Affine.turn(a) @ out @ Affine.turn(-a) for a in angles]
-        return [Affine.turn(a) @ out for a in angles]
+        turned = turns(angles) @ out
+        return turned @ turns([-a for a in angles]) if self.upright else turned
 
 
-@dataclass(frozen=True, kw_only=True)
+@frozen(kw_only=True)
 class Mirror(Layout):
     """The motif and its mirror image."""
 
@@ -51,13 +53,13 @@ class Mirror(Layout):
     shift: Annotated[Pair, Says("move of the motif away from the mirror")] = (1.0, 0.0)
     turn: Annotated[float, Between(-360, 360), Says("degrees the motif is turned first")] = 0.0
 
-    def images(self, cell: tuple[float, float]) -> list[Affine] | Bend:
+    def images(self, cell: tuple[float, float]) -> Affines | Bend:
         """Two images."""
         first = Affine.translation(self.shift) @ Affine.turn(self.turn)
-        return [first, Affine.mirror(self.axis) @ first]
+        return Affines.of([first, Affine.mirror(self.axis) @ first])
 
 
-_GROUP = re.compile(r"^([CcDd])(\d{1,3})$")
+_GROUP = r"^([CcDd])(\d{1,3})$"
 GROUP_PATTERN = r"^\s*[CcDd]\d{1,3}\s*$"
 MAX_ORDER = 500
 
@@ -68,13 +70,13 @@ def parse_rosette(text: str) -> str:
     Raises:
         ValueError: with what was expected.
     """
-    match = _GROUP.match(text.strip())
+    match = re.match(_GROUP, text.strip())
     if match is None or not 1 <= int(match[2]) <= MAX_ORDER:
         raise ValueError(f'expected "Cn" (turns) or "Dn" (turns and mirrors) with n from 1 to {MAX_ORDER}')
     return f"{match[1].upper()}{int(match[2])}"
 
 
-@dataclass(frozen=True, kw_only=True)
+@frozen(kw_only=True)
 class RosetteLayout(Layout):
     """Copies under a rosette group: Cn turns the motif n times round the centre, Dn mirrors each as well.
 
@@ -96,17 +98,17 @@ class RosetteLayout(Layout):
         except ValueError as error:
             raise GeometryError(f'group "{self.group}": {error}') from None
 
-    def images(self, cell: tuple[float, float]) -> list[Affine] | Bend:
+    def images(self, cell: tuple[float, float]) -> Affines | Bend:
         """n images, or 2n with the mirrored ones after each turned one."""
         count = int(self.group[1:])
         first = Affine.translation(self.shift) @ Affine.turn(self.turn)
-        turns = [Affine.similarity(unit_power(k, count)) for k in range(count)]
-        if self.group[0] == "C":
-            return [turn @ first for turn in turns]
-        return [turn @ image @ first for turn in turns for image in (Affine(), Affine.mirror(self.axis))]
+        turned = Affines.similarities(np.array([unit_power(k, count) for k in range(count)]))
+        if self.group[0] == "D":
+            turned = turned.after(Affines.of([IDENTITY, Affine.mirror(self.axis)]))
+        return turned @ first
 
 
-@dataclass(frozen=True, kw_only=True)
+@frozen(kw_only=True)
 class Spot:
     """One hand-made copy: mirrored, scaled, turned and moved in this order; or a matrix."""
 
@@ -137,20 +139,20 @@ class Spot:
         return Affine.translation(self.shift) @ image @ (Affine.mirror(0) if self.mirror else Affine())
 
 
-@dataclass(frozen=True, kw_only=True)
+@frozen(kw_only=True)
 class Free(Layout):
     """Copies set by hand. Tian et al. 2019, Eq. 2."""
 
     spots: Annotated[tuple[Spot, ...], Says("one table for each copy")] = (Spot(),)
 
-    def images(self, cell: tuple[float, float]) -> list[Affine] | Bend:
+    def images(self, cell: tuple[float, float]) -> Affines | Bend:
         """One image per spot."""
         if not self.spots:
             raise GeometryError("a free layout needs at least one spot")
-        return [spot.affine() for spot in self.spots]
+        return Affines.of([spot.affine() for spot in self.spots])
 
 
-@dataclass(frozen=True, kw_only=True)
+@frozen(kw_only=True)
 class Lattice(Layout):
     """Copies in even rows over the whole repeat, for grounds of dots and small flowers."""
 
@@ -160,20 +162,12 @@ class Lattice(Layout):
     stagger: Annotated[bool, Says("shift every other row by half a step")] = False
     turn: Annotated[float, Between(-360, 360), Says("degrees each copy is turned")] = 0.0
 
-    def images(self, cell: tuple[float, float]) -> list[Affine] | Bend:
+    def images(self, cell: tuple[float, float]) -> Affines | Bend:
         """One image per place; the first stands half a step in from the corner."""
         if self.stagger and self.rows % 2:
             raise GeometryError(f"rows = {self.rows}: staggered rows repeat only when their number is even")
         dx, dy = cell[0] / self.columns, cell[1] / self.rows
-        turned = Affine.turn(self.turn)
-        return [
-            Affine.translation(
-                (
-                    (column + 0.5 + (0.5 if self.stagger and row % 2 else 0.0)) * dx - cell[0] / 2,
-                    (row + 0.5) * dy - cell[1] / 2,
-                )
-            )
-            @ turned
-            for row in range(self.rows)
-            for column in range(self.columns)
-        ]
+        row, column = np.divmod(np.arange(self.rows * self.columns), self.columns)
+        early = np.where(self.stagger & (row % 2 == 1), 0.5, 0.0)
+        places = np.column_stack([(column + 0.5 + early) * dx - cell[0] / 2, (row + 0.5) * dy - cell[1] / 2])
+        return Affines.translations(places) @ Affine.turn(self.turn)

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import enum
 import math
-from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
 from batik_vector.errors import GeometryError
 from batik_vector.fields import Between, Length, Says, check, choice
 from batik_vector.tiling.layouts.base import Layout
+from batik_vector.values import frozen
 
 
 class Clear(enum.StrEnum):
@@ -27,7 +27,7 @@ class Clear(enum.StrEnum):
     """Nothing."""
 
 
-@dataclass(frozen=True, kw_only=True)
+@frozen(kw_only=True)
 class Toss(Layout):
     """Marks scattered by chance and evenly over the whole repeat, none overlapping another, seam or no seam.
 
@@ -84,7 +84,7 @@ class Toss(Layout):
             raise GeometryError("turn and turns are both given: expected one of them")
 
 
-@dataclass(frozen=True, kw_only=True)
+@frozen(kw_only=True)
 class Stripes(Layout):
     """Lines that run over the repeat and close on it: the motif, laid end to end along a lattice vector.
 

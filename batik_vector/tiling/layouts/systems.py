@@ -2,23 +2,26 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
+from functools import cached_property
 from typing import Annotated, TypeAlias
 
 from batik_vector.errors import GeometryError
 from batik_vector.fields import Between, OneOf, Says, check
 from batik_vector.geometry.ifs import Ifs
 from batik_vector.geometry.maps import VARIATIONS
-from batik_vector.geometry.maps.affine import Affine
+from batik_vector.geometry.maps.affine import IDENTITY, Affine
+from batik_vector.geometry.maps.affines import Affines
 from batik_vector.geometry.maps.base import Variation
 from batik_vector.geometry.maps.flame import FlameMap
 from batik_vector.geometry.maps.julian import JuliaN, Reading
 from batik_vector.geometry.maps.linear import Linear
 from batik_vector.tiling.layouts.base import Bend, Layout, Pair, carried
 from batik_vector.tiling.layouts.copies import Spot
+from batik_vector.values import frozen
 
 
-@dataclass(frozen=True, kw_only=True)
+@frozen(kw_only=True)
 class Julian(Layout):
     """The paper's layout: the motif is moved, spread by JuliaN, and both again ``level`` times.
 
@@ -35,8 +38,12 @@ class Julian(Layout):
     turn: Annotated[float, Between(-360, 360), Says("degrees the motif is turned first")] = 0.0
     reading: Annotated[Reading, Says("which reading of Eq. 22")] = "rotate"
 
-    def images(self, cell: tuple[float, float]) -> list[Affine] | Bend:
+    def images(self, cell: tuple[float, float]) -> Affines | Bend:
         """``level`` times moved and spread."""
+        return self._images
+
+    @cached_property
+    def _images(self) -> Affines | Bend:
         spread = FlameMap(
             pre=Affine.translation(self.shift), terms=((1.0, JuliaN(self.power, self.dist, self.reading)),)
         )
@@ -46,7 +53,7 @@ class Julian(Layout):
 AnyVariation: TypeAlias = Annotated[Variation, OneOf(lambda: VARIATIONS, "variation")]
 
 
-@dataclass(frozen=True, kw_only=True)
+@frozen(kw_only=True)
 class Term:
     """One weighted variation of a map."""
 
@@ -57,7 +64,7 @@ class Term:
         check(self)
 
 
-@dataclass(frozen=True, kw_only=True)
+@frozen(kw_only=True)
 class MapSpec:
     """One map of an iterated system: affine, then a weighted sum of variations, then affine."""
 
@@ -71,15 +78,19 @@ class MapSpec:
         return FlameMap(pre=self.pre.affine(), terms=terms, post=self.post.affine())
 
 
-@dataclass(frozen=True, kw_only=True)
+@frozen(kw_only=True)
 class System(Layout):
     """An iterated function system in the flame form. Tian et al. 2019, Eq. 7; Draves & Reckase 2003."""
 
     maps: Annotated[tuple[MapSpec, ...], Says("the maps F_i")]
     level: Annotated[int, Between(0, 100_000), Says("how often they are applied")] = 1
 
-    def images(self, cell: tuple[float, float]) -> list[Affine] | Bend:
+    def images(self, cell: tuple[float, float]) -> Affines | Bend:
         """The union of all images under all maps, ``level`` times."""
+        return self._images
+
+    @cached_property
+    def _images(self) -> Affines | Bend:
         if not self.maps:
             raise GeometryError("an ifs layout needs at least one map")
-        return carried(Affine(), Ifs(tuple(spec.flame() for spec in self.maps), self.level))
+        return carried(IDENTITY, Ifs(tuple(spec.flame() for spec in self.maps), self.level))

@@ -1,0 +1,258 @@
+"""Copies of marks, set down in bulk: congruent ones are made once and, where they can be, exact on the grid.
+
+The map of a copy is taken apart into a linear map that is done once for all copies of one size and shape, and
+an isometry that carries what it makes to its place. Copies whose isometries differ by a translation, or by a
+quarter turn or a mirror along an axis as well, are rounded to the grid once and then carried by whole steps:
+they are images of one another to the bit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from batik_vector.geometry.coincide import edges
+from batik_vector.geometry.maps.affine import SIMILAR, Affine
+from batik_vector.geometry.maps.affines import ONE, Affines
+from batik_vector.geometry.ragged import Ragged
+from batik_vector.geometry.sampling import Array, Geometries, Indices, Points
+from batik_vector.tiling.torus import polygons_of, to_step_grid
+from batik_vector.units import GRID_MM, STEPS_PER_MM
+from batik_vector.values import frozen
+
+NEAR = 1e-6
+"""In grid steps: how far floats may put what lies on one place."""
+
+MEETING = 2.5 * GRID_MM
+"""How near edges in mm lie that are one edge: each may be moved by a step."""
+
+MOST_NEIGHBOURS = 24
+"""Ways to lie beside one another that are looked at before copies are taken to meet."""
+
+
+class Images(NamedTuple):
+    """Copies of marks, in any order: ``copy`` says which copy each is of, and ``mark`` of which mark."""
+
+    geometries: Geometries
+    copy: Indices
+    mark: Indices
+
+
+@frozen(eq=False)
+class Group:
+    """Copies of one shape on the grid.
+
+    Attributes:
+        turn: isometry of mm that is done before the shape is rounded.
+        carriers: in whole grid steps: a symmetry of the grid, and a translation.
+        numbers: which copies these are.
+    """
+
+    turn: Affine
+    carriers: Affines
+    numbers: Indices
+
+    def images(self, marks: Geometries) -> Images:
+        """Return the copies of marks in mm, each coordinate the float k / 1000."""
+        mark = np.arange(len(marks))
+        if areal := shapely.get_dimensions(marks[0]) == 2:
+            marks, mark = polygons_of(marks, mark)
+        outlines = Ragged.of(marks)
+        points = np.rint(Affines.of([self.turn]).at(outlines.points) * STEPS_PER_MM)
+        shapes = outlines.images(points, np.array([self.turn.determinant < 0]))
+        if areal and not shapely.is_valid(shapes).all():
+            shapes, mark = polygons_of(to_step_grid(self.turn.apply(marks)), mark)
+            outlines = Ragged.of(shapes)
+            points = outlines.points[None]
+        # + 0.0, lest a turn leave a zero with a sign.
+        places = (self.carriers.at(points[0]) + 0.0) / STEPS_PER_MM
+        return _numbered(outlines.images(places, self.carriers.determinants < 0), self.numbers, mark)
+
+
+@frozen(eq=False)
+class Spread:
+    """Copies that are congruent.
+
+    Attributes:
+        first: brings the motif to its size, in mm. Several maps make all copies at once, as they are.
+        carriers: isometries of mm that set down what ``first`` makes.
+        numbers: which copies these are.
+        groups: the same copies on the grid; none where hardly two of them are alike.
+    """
+
+    first: Affines
+    carriers: Affines
+    numbers: Indices
+    groups: tuple[Group, ...] = ()
+
+    @property
+    def is_done(self) -> bool:
+        """Whether ``first`` has brought everything to its place."""
+        return self.carriers is ONE
+
+    def images(self, marks: Geometries) -> Images:
+        """Return the copies of marks, polygons or lines, which ``first`` has brought to their size."""
+        if self.groups and len(marks):
+            return joined([group.images(marks) for group in self.groups])
+        return _numbered(self.carriers.apply(marks), self.numbers, np.arange(len(marks)))
+
+
+def _numbered(geometries: Geometries, numbers: Indices, mark: Indices) -> Images:
+    return Images(geometries, np.repeat(numbers, len(mark)), np.tile(mark, len(numbers)))
+
+
+def joined(parts: Sequence[Images]) -> Images:
+    """Return several sets of images as one."""
+    if len(parts) == 1:
+        return parts[0]
+    return Images(*(np.concatenate(columns) for columns in zip(*parts, strict=True)))
+
+
+def spreads(maps: Affines, marks: Callable[[], Sequence[Geometries]] | None = None) -> list[Spread]:
+    """Sort copies by their size and shape.
+
+    Args:
+        maps: from motif units to mm on cloth.
+        marks: returns the marks of the motif, where copies may be moved by part of a grid step to lie on
+            whole ones. That is not done where they meet along edges, which it would open.
+
+    Returns:
+        Every copy in one of them. Where most differ in size or shape, one that holds all as they are.
+    """
+    size = np.zeros(len(maps), np.intp) if maps.are_translates else _alike(_gram(maps))
+    count = int(size.max()) + 1
+    if len(maps) == 1 or 2 * count > len(maps):
+        return [Spread(maps, ONE, np.zeros(1, np.intp))]
+    found = []
+    for label in range(count):
+        numbers = np.flatnonzero(size == label)
+        own = maps.taken(numbers)
+        first = Affines.of([own[0].linear])
+        carriers = _isometries(own)
+        phase = _phase(carriers)
+        # Of several sizes none is moved: those of one might meet those of another.
+        apart = marks is not None and count == 1 and (phase != phase[:1]).any()
+        if apart and marks is not None and not _meet([first.apply(part) for part in marks()], carriers):
+            phase = np.zeros_like(phase)
+        found.append(Spread(first, carriers, numbers, _groups(carriers, numbers, phase)))
+    return found
+
+
+def _isometries(maps: Affines) -> Affines:
+    """Return what follows the linear part of the first of congruent maps to make each; exact on the grid."""
+    if maps.are_translates:
+        return Affines.translations(maps.shifts)
+    turns = maps @ maps[0].linear.inverse()
+    whole = np.rint(turns.linear)
+    near = np.asarray((np.abs(turns.linear - whole) < SIMILAR).all(axis=1))
+    return Affines(np.hstack([np.where(near[:, None], whole, turns.linear), maps.shifts]))
+
+
+def _phase(carriers: Affines) -> Array:
+    """Return by how much of a grid step each copy lies off a whole one, shape (n, 2)."""
+    steps = carriers.shifts * STEPS_PER_MM
+    phase = steps - np.floor(steps + NEAR)
+    return np.where(np.abs(phase) < 2 * NEAR, 0.0, phase)
+
+
+def _kinds(carriers: Affines, phase: Array) -> Indices:
+    """Return a number for each copy, the same for those that the grid rounds alike.
+
+    Those are translates by whole steps and, of copies on whole steps, images under its symmetries as well.
+    """
+    if carriers.are_translates and (phase == phase[:1]).all():
+        return np.zeros(len(carriers), np.intp)
+    a, _, c, _ = carriers.linear.T
+    mirrored = carriers.determinants < 0
+    z = a + 1j * c
+    on_steps = ~phase.any(axis=1)
+    # Quarter turns leave the fourth power alone, and the mirrors of the grid make it its conjugate.
+    z = np.where(on_steps, np.where(mirrored, z.conj(), z) ** 4, z)
+    rows = [_cells(part, 100 * SIMILAR) for part in (z.real, z.imag)]
+    rows += [_cells(part, NEAR) for part in phase.T]
+    return _alike(np.column_stack([*rows, on_steps, mirrored & ~on_steps]))
+
+
+def _groups(carriers: Affines, numbers: Indices, phase: Array) -> tuple[Group, ...]:
+    """Return copies on the grid, each off whole steps by its phase; none where most are different."""
+    kind = _kinds(carriers, phase)
+    count = int(kind.max()) + 1
+    if 2 * count > len(kind):
+        return ()
+    found = []
+    for label in range(count):
+        own = np.flatnonzero(kind == label)
+        off = phase[own[0]]
+        turn = carriers[int(own[0])].linear
+        whole = np.rint((carriers.taken(own) @ turn.inverse()).linear)
+        steps = np.rint(carriers.shifts[own] * STEPS_PER_MM - off)
+        turn = Affine.translation(off / STEPS_PER_MM) @ turn
+        found.append(Group(turn, Affines(np.hstack([whole, steps])), numbers[own]))
+    return tuple(found)
+
+
+def _meet(shapes: Sequence[Geometries], carriers: Affines) -> bool:
+    """Whether copies of shapes (mm) may meet along edges, or where lines end.
+
+    Every way in which two neighbours lie to one another is looked at once.
+    """
+    marks = np.concatenate([np.empty(0, dtype=object), *shapes])
+    points = shapely.get_coordinates(marks)
+    centre = (points.min(axis=0) + points.max(axis=0)) / 2
+    reach = 2 * float(np.hypot(*(points - centre).T).max()) + MEETING
+    places = np.asarray(shapely.points(carriers.at(centre[None])[:, 0]), dtype=object)
+    one, other = shapely.STRtree(places).query(places, predicate="dwithin", distance=reach)
+    pairs = one < other
+    one, other = one[pairs], other[pairs]
+    if not len(one):
+        return False
+    apart = _cells(carriers.shifts[other] - carriers.shifts[one], MEETING)
+    turns = _cells(carriers.linear, 100 * SIMILAR)
+    rows = np.hstack([turns[one], turns[other], apart])
+    _, first = np.unique(rows, axis=0, return_index=True)
+    return len(first) > MOST_NEIGHBOURS or any(
+        _share_an_edge(*(carriers.taken(i).apply(marks) for i in (one[k : k + 1], other[k : k + 1])))
+        for k in first.tolist()
+    )
+
+
+def _share_an_edge(one: Geometries, other: Geometries) -> bool:
+    """Whether edges of two drawings run along one another, or a line of one ends on the other."""
+    found = []
+    for mine, its in ((one, other), (other, one)):
+        tree = shapely.STRtree(edges(its))
+        ends = shapely.get_parts(shapely.boundary(mine[shapely.get_dimensions(mine) == 1]))
+        if len(tree.query(ends, predicate="dwithin", distance=MEETING)[0]):
+            return True
+        vertices = shapely.get_coordinates(mine)
+        found.append(vertices[tree.query(shapely.points(vertices), predicate="dwithin", distance=MEETING)[0]])
+    # Edges that run along one another do so between two vertices; those that cross may do so near one.
+    there: Points = np.concatenate(found)
+    return bool(len(there)) and float(np.ptp(there, axis=0).max()) > 8 * MEETING
+
+
+def _gram(maps: Affines) -> NDArray[np.int64]:
+    """Return numbers that are equal where two linear maps differ by an isometry that follows them."""
+    a, b, c, d = maps.linear.T
+    gram = np.column_stack([a * a + c * c, a * b + c * d, b * b + d * d])
+    return _cells(gram, 10 * SIMILAR * float(np.abs(gram).max()))
+
+
+def _cells(values: Array, size: float) -> NDArray[np.int64]:
+    """Return in which cell of a size each value lies; 0, halves and thirds lie off the edges of cells."""
+    return np.floor(values / size + 0.382).astype(np.int64)
+
+
+def _alike(rows: NDArray[np.int64]) -> Indices:
+    """Return a number for each row, the same for equal rows."""
+    rows = rows[:, (rows != rows[:1]).any(axis=0)]
+    number = np.zeros(len(rows), np.intp)
+    if rows.shape[1]:
+        order = np.lexsort(rows.T)
+        new = (rows[order[1:]] != rows[order[:-1]]).any(axis=1)
+        number[order[1:]] = np.cumsum(new)
+    return number

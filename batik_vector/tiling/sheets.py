@@ -1,0 +1,128 @@
+"""Sheets of marks: what one element of one placement draws, over all its copies, and what it cuts.
+
+Here they come from millimetres to the grid, all at once, so that what is congruent is found.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import field
+from typing import NamedTuple
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from batik_vector.artwork import Geometries, Ink
+from batik_vector.outlines import Index
+from batik_vector.tiling import overlay
+from batik_vector.tiling.congruent import Copies, Stock, together
+from batik_vector.units import STEPS_PER_MM
+from batik_vector.values import frozen
+
+
+def _none() -> Geometries:
+    return np.empty(0, dtype=object)
+
+
+@frozen
+class Sheet:
+    """The marks of one element, in mm on cloth, not yet wrapped.
+
+    ``ink`` is None for a sheet that only cuts. ``gap`` is how many mm of ground it keeps bare round its
+    shape by cutting what lies beneath; None cuts nothing. ``cutter`` is the shape that cuts, where it is
+    not the areas drawn (an outlined petal hides what lies under the whole petal). ``whole`` leaves out
+    marks that would be cut, as nobody waxes half a dot; ``margin`` (mm) is how far a line drawn round
+    the areas by another sheet reaches beyond them, so that both are kept or left out together.
+    """
+
+    name: str
+    ink: Ink | None
+    areas: Geometries = field(default_factory=_none)
+    lines: Geometries = field(default_factory=_none)
+    gap: float | None = None
+    cutter: Geometries = field(default_factory=_none)
+    whole: bool = False
+    margin: float = 0.0
+
+
+def quad_segs(radius: float, tolerance: float) -> int:
+    """Return into how many pieces a buffer must cut a quarter turn to keep the tolerance (both in mm)."""
+    if radius <= tolerance:
+        return 2
+    return max(2, int(np.ceil(np.pi / 4 / np.arccos(1 - tolerance / radius))))
+
+
+class Laid(NamedTuple):
+    """Copies, and for each the number of the sheet it lies in."""
+
+    copies: Copies
+    sheet: Index
+
+    def taken(self, which: Index | NDArray[np.bool_]) -> Laid:
+        """Return some of them, by number or by a mask."""
+        return Laid(self.copies.taken(which), self.sheet[which])
+
+
+def joined(parts: Sequence[Laid]) -> Laid:
+    """Return several as one."""
+    sheets = [part.sheet for part in parts]
+    return Laid(
+        together([p.copies for p in parts]), np.concatenate(sheets) if sheets else np.empty(0, np.intp)
+    )
+
+
+class Pile:
+    """Sheets, bottom first, whose areas are on the grid.
+
+    Attributes:
+        sheets: as given.
+        stock: of which the copies are.
+        tolerance: in mm, for the round corners of what is grown.
+        drawn: the areas of all sheets that have an ink.
+    """
+
+    def __init__(self, sheets: Sequence[Sheet], stock: Stock, tolerance: float) -> None:
+        self.sheets, self.stock, self.tolerance = sheets, stock, tolerance
+        own = [sheet.cutter if sheet.gap is not None else _none() for sheet in sheets]
+        marks = [*(sheet.areas for sheet in sheets), *own]
+        number = np.repeat(np.arange(2 * len(sheets)), [len(each) for each in marks])
+        copies, of = stock.settled(np.concatenate([_none(), *marks]))
+        place = number[of] if len(of) else np.empty(0, np.intp)
+        all_areas = Laid(copies, place % max(len(sheets), 1))
+        has_ink = np.array([sheet.ink is not None for sheet in sheets], bool)
+        cuts = np.array([sheet.gap is not None for sheet in sheets], bool)
+        has_own = np.array([len(each) > 0 for each in own], bool)
+        second = place >= len(sheets)
+        self.drawn = all_areas.taken(~second & has_ink[all_areas.sheet])
+        self._cutting = all_areas.taken(cuts[all_areas.sheet] & (second == has_own[all_areas.sheet]))
+
+    def cutters(self, above: int = -1, extra: float = 0.0) -> Laid:
+        """Return what sheets above a number cut away: their shapes, grown by gap and ``extra`` (mm)."""
+        parts = []
+        numbers = [n for n in range(above + 1, len(self.sheets)) if self.sheets[n].gap is not None]
+        reach = {number: (self.sheets[number].gap or 0.0) + extra for number in numbers}
+        for radius in sorted(set(reach.values())):
+            mine = [number for number in numbers if reach[number] == radius]
+            parts.append(self.grown(self._cutting.taken(np.isin(self._cutting.sheet, mine)), radius))
+        for number in numbers:
+            sheet = self.sheets[number]
+            if len(sheet.lines) and sheet.ink is not None and not len(sheet.cutter):
+                radius = reach[number] + sheet.ink.width / 2
+                bodies = shapely.buffer(sheet.lines, radius, quad_segs=quad_segs(radius, self.tolerance))
+                copies, _ = self.stock.settled(np.asarray(bodies, dtype=object))
+                parts.append(Laid(copies, np.full(len(copies), number)))
+        return joined(parts)
+
+    def grown(self, laid: Laid, radius: float) -> Laid:
+        """Return areas grown by a radius in mm, with round corners."""
+        if radius <= 0 or not len(laid.sheet):
+            return laid
+        corners = quad_segs(radius, self.tolerance)
+
+        def grow(shapes: Geometries) -> Geometries:
+            bodies = shapely.buffer(shapes, radius * STEPS_PER_MM, quad_segs=corners)
+            return overlay.on_grid(np.asarray(bodies, dtype=object))
+
+        down = self.stock.mapped(laid.copies, grow)
+        return Laid(down.copies, laid.sheet[down.each])

@@ -1,0 +1,1 @@
+"""What batik_vector costs, beside its peers: see README.md in this folder."""

@@ -1,0 +1,235 @@
+"""What was asked of the speed, and whether the measurements say so: nothing here is known beforehand."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+from benchmarks.contests import BATIK, FORMATS, SLIDER_KNOBS, Plan
+from benchmarks.drawing import RING
+from benchmarks.results import Results, Spread, exponent, over_log
+
+LINEAR = 1.1
+"""Exponents below this count as linear."""
+MIB = 1 << 20
+LIMITS: tuple[tuple[str, str, str], ...] = (
+    *(
+        (stage, f"limits/{BATIK}/{stage}", f"limits/limit/{stage}")
+        for stage in ("generation", "tiling", *FORMATS)
+    ),
+    ("welding", "overlay limits/weld/welding", "overlay limits/limit/welding"),
+    ("joining", "overlay limits/join/joining", "overlay limits/limit/joining"),
+    ("help", "start/batik --help", "start/python"),
+    ("version", "start/batik --version", "start/python"),
+    ("compile", "start/batik compile", "start/numpy"),
+)
+"""Stages, what they take, and the least that they could take."""
+NOT_RUN = "the section was not run"
+NEAR = 2.0
+"""Times the least that is near enough."""
+
+
+@dataclass(frozen=True)
+class Row:
+    """One thing asked, in which line, and what was measured; ``passed`` is None where nothing was."""
+
+    line: int
+    asked: str
+    measured: str
+    passed: bool | None
+
+    @property
+    def verdict(self) -> str:
+        """Return the last column."""
+        return "not measured" if self.passed is None else "passed" if self.passed else "**not passed**"
+
+
+def times(ratio: Spread) -> str:
+    """Return a ratio as words."""
+    if ratio.median >= 10:
+        return f"{ratio.median:.0f}× ({ratio.low:.0f}–{ratio.high:.0f})"
+    return f"{ratio.median:.1f}× ({ratio.low:.1f}–{ratio.high:.1f})"
+
+
+def seconds(value: float) -> str:
+    """Return a duration as words."""
+    return (
+        f"{value:.2f} s"
+        if value >= 0.995
+        else f"{value * 1000:.0f} ms"
+        if value >= 0.01
+        else f"{value * 1000:.1f} ms"
+    )
+
+
+class Asked:
+    """Makes rows from results; what has not been measured says why."""
+
+    def __init__(self, results: Results) -> None:
+        self.results = results
+
+    def missing(self, *names: str) -> str:
+        """Return why some runs are missing."""
+        for name in names:
+            for known, reason in self.results.missing.items():
+                if name == known or name.startswith(f"{known}/"):
+                    return reason
+        return NOT_RUN
+
+    def faster(self, line: int, asked: str, peer: str, own: str, least: float, what: str = "cpu") -> Row:
+        """Ask that a peer needs at least so many times as much as we do."""
+        ratio = self.results.ratio(peer, own, what)
+        theirs, mine = self.results.of(peer, what), self.results.of(own, what)
+        if ratio is None or theirs is None or mine is None:
+            return Row(line, asked, self.missing(peer, own), None)
+        words = f"{times(ratio)}: {seconds(mine.median)} against {seconds(theirs.median)}"
+        return Row(line, asked, words, ratio.median >= least)
+
+    def within(self, line: int, asked: str, own: str, other: str, most: float) -> Row:
+        """Ask that we need at most so many times as much as something else."""
+        ratio = self.results.ratio(own, other)
+        mine, least = self.results.of(own), self.results.of(other)
+        if ratio is None or mine is None or least is None:
+            return Row(line, asked, self.missing(own, other), None)
+        words = f"{times(ratio)}: {seconds(mine.median)} against {seconds(least.median)}"
+        return Row(line, asked, words, ratio.median <= most)
+
+    def below(self, line: int, asked: str, name: str, most: float) -> Row:
+        """Ask that something takes less than so many seconds of CPU."""
+        found = self.results.of(name)
+        if found is None:
+            return Row(line, asked, self.missing(name), None)
+        words = f"{seconds(found.median)} ({seconds(found.low)}–{seconds(found.high)})"
+        return Row(line, asked, words, found.median < most)
+
+    def fact(self, line: int, asked: str, name: str, key: str, holds: Callable[[object], bool]) -> Row:
+        """Ask that a fact holds."""
+        value = self.results.facts.get(name, {}).get(key)
+        if value is None:
+            return Row(line, asked, self.missing(name) if name in self.results.missing else NOT_RUN, None)
+        return Row(line, asked, f"{key}: {value}", holds(value))
+
+
+def rows(results: Results, plan: Plan, said: str = "") -> list[Row]:
+    """Return the rows of the acceptance list; ``said`` is what the page says by hand."""
+    asked = Asked(results)
+    parts = (_svg, _dxf, _pdf, _three, _growth, _start, _slider)
+    return [*(row for part in parts for row in part(asked, plan)), _explained(results, said)]
+
+
+def far(results: Results) -> list[str]:
+    """Return the stages that take more than twice the least."""
+    ratios = ((stage, results.ratio(own, least)) for stage, own, least in LIMITS)
+    return [stage for stage, ratio in ratios if ratio and ratio.median > NEAR]
+
+
+def _explained(results: Results, said: str) -> Row:
+    words = "where the least is not reached within a factor of two, the page says why"
+    if not any(results.ratio(own, least) for _, own, least in LIMITS):
+        return Row(8, words, NOT_RUN, None)
+    stages = far(results)
+    silent = [stage for stage in stages if f"**{stage}**" not in said]
+    told = f"{', '.join(stages) or 'none'} beyond it"
+    return Row(8, words, f"{told}; unexplained: {', '.join(silent)}" if silent else told, not silent)
+
+
+def _svg(asked: Asked, plan: Plan) -> Iterator[Row]:
+    own = f"svg alone/{BATIK}"
+    for name, words, least in (
+        ("vpype_svg", "SVG writer ≥ 100× faster than vpype's", 100),
+        ("svgwrite_polygon", "SVG writer ≥ 40× faster than svgwrite per vertex, `polygon`", 40),
+        ("svgwrite_push", "SVG writer ≥ 40× faster than svgwrite per vertex, `push`", 40),
+        ("matplotlib_svg", "SVG writer ≥ 10× faster than matplotlib's", 10),
+    ):
+        yield asked.faster(1, words, f"svg alone/{name}", own, least)
+    words = "SVG writer ≤ 2× the cost of formatting and writing the same bytes alone"
+    yield asked.within(1, words, f"limits/{BATIK}/svg", "limits/limit/svg", 2)
+    for name in ("vpype", "vsketch"):
+        words = f"recipe to SVG, whole process, ≥ 20× faster than a script of {name}"
+        yield asked.faster(1, words, f"svg whole/{name}_svg", f"svg whole/{BATIK}", 20)
+
+
+def _dxf(asked: Asked, plan: Plan) -> Iterator[Row]:
+    words = "DXF writer ≥ 100× faster than adding LWPOLYLINEs through ezdxf and saving"
+    yield asked.faster(2, words, "dxf alone/ezdxf_dxf", f"dxf alone/{BATIK}", 100)
+    yield asked.fact(2, "the DXF passes ezdxf's audit", "dxf audit", "errors", lambda n: n == 0)
+    yield asked.fact(2, "the DXF opens in LibreCAD", "dxf librecad", "opened", lambda opened: opened is True)
+    yield asked.fact(
+        2, "ezdxf is not imported to write it", "dxf imports", "ezdxf", lambda is_in: is_in is False
+    )
+
+
+def _pdf(asked: Asked, plan: Plan) -> Iterator[Row]:
+    own = f"pdf alone/{BATIK}"
+    for name, words, least in (
+        ("cairosvg_pdf", "PDF writer ≥ 25× faster than cairosvg on the same SVG", 25),
+        ("pycairo_pdf", "PDF writer ≥ 8× faster than pycairo", 8),
+        ("matplotlib_pdf", "PDF writer ≥ 5× faster than matplotlib", 5),
+    ):
+        yield asked.faster(3, words, f"pdf alone/{name}", own, least)
+    yield asked.fact(
+        3, "with a layer for the ink and one for the cloth", "pdf boxes", "layers", lambda n: n == 2
+    )
+    boxes = ["MediaBox", "BleedBox", "TrimBox"]
+    yield asked.fact(3, "with trim and bleed boxes", "pdf boxes", "boxes", lambda found: found == boxes)
+
+
+def _three(asked: Asked, plan: Plan) -> Iterator[Row]:
+    for contest, rings, least in (("three whole", plan.rings, 20), ("three whole, fewer", plan.few, 8)):
+        words = (
+            f"SVG, PDF and DXF of {rings * RING:,} vertices as a whole process ≥ {least}× faster than by "
+            "svgwrite (ready strings), cairosvg and ezdxf"
+        )
+        yield asked.faster(4, words, f"{contest}/three_files", f"{contest}/{BATIK}", least)
+    words = "peak memory under 200 bytes per vertex above the interpreter's"
+    peak = asked.results.of(f"three whole/{BATIK}", "mib")
+    if peak is None:
+        yield Row(4, words, asked.missing(f"three whole/{BATIK}"), None)
+        return
+    per_vertex = peak.median * MIB / (plan.rings * RING)
+    yield Row(4, words, f"{per_vertex:.0f} bytes", per_vertex < 200)
+
+
+def _growth(asked: Asked, plan: Plan) -> Iterator[Row]:
+    for stage in ("generation", "tiling", *FORMATS):
+        what = f"writing {stage.upper()}" if stage in FORMATS else stage
+        yield _grows(
+            asked, f"{what} grows linearly (exponent < {LINEAR})", "growth", stage, plan.growth, False
+        )
+    for stage in ("welding", "joining"):
+        words = f"{stage} grows as n log n (exponent over log n < {LINEAR})"
+        yield _grows(asked, words, stage, stage, plan.overlays, True)
+    words = "compiling a welded four-square layout at level 4 costs ≤ 5× its level 1"
+    for shift in ("", ", overlapping"):
+        own = f"levels/{BATIK}"
+        yield asked.within(5, f"{words}{shift}", f"{own}/level 4{shift}", f"{own}/level 1{shift}", 5)
+
+
+def _grows(asked: Asked, words: str, contest: str, stage: str, sizes: tuple[int, ...], sorts: bool) -> Row:
+    """Ask for an exponent, over all sizes and over the larger: fixed costs hide growth in the smaller."""
+    names = [f"{contest}/{rings}/{stage}" for rings in sizes]
+    costs = asked.results.medians(names)
+    if costs is None:
+        return Row(5, words, asked.missing(*names), None)
+    vertices = [rings * RING for rings in sizes]
+    if sorts:
+        costs = over_log(vertices, costs)
+    whole, upper = exponent(vertices, costs), exponent(vertices[-3:], costs[-3:])
+    told = f"{whole:.2f} from {vertices[0]:,} to {vertices[-1]:,}, {upper:.2f} over the largest three"
+    return Row(5, words, told, max(whole, upper) < LINEAR)
+
+
+def _start(asked: Asked, plan: Plan) -> Iterator[Row]:
+    for option in ("--help", "--version"):
+        words = f"`batik-vector {option}` ≥ 8× faster than vpype's"
+        yield asked.faster(6, words, f"start/vpype {option}", f"start/batik {option}", 8)
+    words = "`compile` of samples/four-square.toml to SVG, process included, < 250 ms of CPU"
+    yield asked.below(6, words, "start/batik compile", 0.250)
+    words = "and in less time than `vpype --version` takes"
+    yield asked.faster(6, words, "start/vpype --version", "start/batik compile", 1, "wall")
+
+
+def _slider(asked: Asked, plan: Plan) -> Iterator[Row]:
+    for knob in SLIDER_KNOBS:
+        words = f"recipe to artwork of four-square at 0.3 mm, in process, turning {knob}, < 20 ms"
+        yield asked.below(7, words, f"slider/{BATIK}/{knob}", 0.020)

@@ -1,0 +1,337 @@
+"""What is run against what: each section of the benchmark as contests between entrants.
+
+Commands are written with ``{folder}``, where a drawing of the contest's size
+lies ready and where files go.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from types import MappingProxyType
+
+from benchmarks.timing import OWN, PEERS
+
+FOUR_SQUARE = "samples/four-square.toml"
+FORMATS = ("svg", "pdf", "dxf")
+SLIDER_KNOBS = ("petal length", "pistil length", "leaf point", "size of all")
+"""What is turned in the sample, one at a time."""
+BATIK = "batik_vector"
+"""The entrant that all others are measured by."""
+
+
+@dataclass(frozen=True)
+class Entrant:
+    """One that takes part.
+
+    ``inside`` says that the command times parts of its own work and prints them; otherwise its process is
+    timed as a whole. ``drawn`` are the files that are read back to see that the drawing is the same.
+    ``tiny`` is the same command for four marks: what memory it needs is not the drawing's.
+    """
+
+    name: str
+    says: str
+    command: tuple[str, ...]
+    inside: bool = False
+    drawn: tuple[str, ...] = ()
+    tiny: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Contest:
+    """Entrants that run in turn, round after round. ``rings`` is how large a drawing they find ready."""
+
+    name: str
+    entrants: tuple[Entrant, ...]
+    rounds: int
+    rings: int = 0
+
+
+@dataclass(frozen=True)
+class Fact:
+    """What a command finds out once, told as JSON, with a drawing of ``rings`` marks ready."""
+
+    name: str
+    command: tuple[str, ...]
+    rings: int = 0
+
+
+@dataclass(frozen=True)
+class Plan:
+    """How large and how often."""
+
+    rings: int
+    """Marks of the drawing."""
+    few: int
+    """Marks of a small one."""
+    growth: tuple[int, ...]
+    """Marks of the drawing as it grows."""
+    overlays: tuple[int, ...]
+    """The same where marks are welded, or lines joined."""
+    squares: int
+    """Squares in a row whose sides are drawn twice."""
+    merged: int
+    """Squares in a row whose sides are joined."""
+    cloth: tuple[int, ...]
+    """Lengths of cloth in metres."""
+    rounds: int
+    """How often everything runs."""
+    starts: int
+    """Rounds of what is over soon."""
+
+
+FULL = Plan(
+    rings=10_000,
+    few=1_000,
+    growth=(100, 1_000, 10_000, 40_000),
+    overlays=(100, 1_000, 10_000),
+    squares=40,
+    merged=160,
+    cloth=(1, 3, 10),
+    rounds=5,
+    starts=11,
+)
+QUICK = Plan(
+    rings=400,
+    few=100,
+    growth=(100, 400, 1_600),
+    overlays=(100, 400),
+    squares=12,
+    merged=30,
+    cloth=(1,),
+    rounds=2,
+    starts=3,
+)
+
+PEER_SCRIPTS: Mapping[str, str] = MappingProxyType(
+    {
+        "vpype_svg": "vpype, `write_svg`",
+        "vsketch_svg": "vsketch, a sketch of polygons",
+        "svgwrite_polygon": "svgwrite, `polygon(points=…)`",
+        "svgwrite_push": "svgwrite, `path.push` per vertex",
+        "svgwrite_bare": "svgwrite, `polygon`, checks off",
+        "svgwrite_ready": "svgwrite, ready `d` strings, checks off",
+        "drawsvg_svg": "drawsvg, `Lines`",
+        "pycairo_svg": "pycairo, SVG surface",
+        "pycairo_pdf": "pycairo, PDF surface",
+        "matplotlib_svg": "matplotlib, `PolyCollection`, SVG",
+        "matplotlib_pdf": "matplotlib, `PolyCollection`, PDF",
+        "cairosvg_pdf": "cairosvg, from batik_vector's SVG",
+        "ezdxf_dxf": "ezdxf, `add_lwpolyline` and `saveas`",
+        "three_files": "svgwrite (ready strings), cairosvg, ezdxf",
+    }
+)
+
+
+def own(module: str, *words: str) -> tuple[str, ...]:
+    """Return the command that runs a module of ours in our environment."""
+    return str(OWN / "python"), "-m", f"benchmarks.{module}", *words
+
+
+def compiling(formats: str, recipe: str = "drawing") -> tuple[str, ...]:
+    """Return the command that compiles the ready recipe."""
+    return str(OWN / "batik-vector"), "compile", f"{{folder}}/{recipe}.toml", "-o", "{folder}", "-f", formats
+
+
+def peer(script: str, mode: str, rings: int) -> tuple[str, ...]:
+    """Return the command that runs a peer's script in the peers' environment."""
+    return str(PEERS / "python"), "-m", f"benchmarks.peers.{script}", mode, str(rings), "{folder}"
+
+
+def writers(format_: str, scripts: Sequence[str], plan: Plan) -> Contest:
+    """Return a contest of writers alone: the same arrays to a file."""
+    mine = Entrant(
+        BATIK, BATIK, own("own", "write", str(plan.rings), "{folder}", format_), True, (f"own.{format_}",)
+    )
+    theirs = [
+        Entrant(name, PEER_SCRIPTS[name], peer(name, "alone", plan.rings), True, (f"{name}.{format_}",))
+        for name in scripts
+    ]
+    return Contest(f"{format_} alone", (mine, *theirs), plan.rounds, plan.rings)
+
+
+def processes(name: str, formats: str, scripts: Sequence[str], rings: int, rounds: int) -> Contest:
+    """Return a contest of whole processes: from recipe or script to files, start-up included."""
+    suffixes = formats.split(",")
+    mine = Entrant(
+        BATIK,
+        f"batik-vector compile -f {formats}",
+        compiling(formats),
+        drawn=tuple(f"drawing.{suffix}" for suffix in suffixes),
+        tiny=compiling(formats, "tiny"),
+    )
+    theirs = [
+        Entrant(
+            each,
+            PEER_SCRIPTS[each],
+            peer(each, "whole", rings),
+            drawn=tuple(f"{each}.{suffix}" for suffix in suffixes),
+            tiny=peer(each, "whole", 4),
+        )
+        for each in scripts
+    ]
+    return Contest(name, (mine, *theirs), rounds, rings)
+
+
+def svg(plan: Plan) -> list[Contest]:
+    """SVG: the writer alone, and the whole process."""
+    scripts = ["vpype_svg", "svgwrite_polygon", "svgwrite_push", "svgwrite_bare", "svgwrite_ready"]
+    others = ["drawsvg_svg", "pycairo_svg", "matplotlib_svg"]
+    whole = ["vpype_svg", "vsketch_svg", "svgwrite_polygon", "svgwrite_ready", *others]
+    return [
+        writers("svg", [*scripts, *others], plan),
+        processes("svg whole", "svg", whole, plan.rings, plan.rounds),
+    ]
+
+
+def pdf(plan: Plan) -> list[Contest]:
+    """PDF: the writer alone."""
+    return [writers("pdf", ["cairosvg_pdf", "pycairo_pdf", "matplotlib_pdf"], plan)]
+
+
+def dxf(plan: Plan) -> list[Contest]:
+    """DXF: the writer alone."""
+    return [writers("dxf", ["ezdxf_dxf"], plan)]
+
+
+def three(plan: Plan) -> list[Contest]:
+    """All three files of one drawing, whole processes, large and small."""
+    return [
+        processes(name, ",".join(FORMATS), ["three_files"], rings, plan.rounds)
+        for name, rings in (("three whole", plan.rings), ("three whole, fewer", plan.few))
+    ]
+
+
+def lines(plan: Plan) -> list[Contest]:
+    """Lines drawn once and joined."""
+
+    def contest(name: str, side: int, steps: str) -> Contest:
+        theirs = (str(PEERS / "python"), "-m", "benchmarks.peers.vpype_lines", steps, str(side))
+        return Contest(
+            name,
+            (
+                Entrant(BATIK, "batik_vector, drawn once and joined", own("stages", "once", str(side)), True),
+                Entrant("vpype", "vpype", theirs, True),
+            ),
+            plan.rounds,
+        )
+
+    return [
+        contest("lines drawn twice", plan.squares, "deduplicate,linemerge,linesort"),
+        contest("lines joined", plan.merged, "linemerge,linesort"),
+    ]
+
+
+def growth(plan: Plan) -> list[Contest]:
+    """The same drawing in many sizes, stage by stage; then marks that are welded, and lines joined."""
+
+    def contest(name: str, task: str, sizes: Sequence[int]) -> Contest:
+        entrants = (
+            Entrant(str(rings), f"{rings:,} marks", own("stages", task, str(rings)), True) for rings in sizes
+        )
+        return Contest(name, tuple(entrants), plan.rounds)
+
+    return [
+        contest("growth", "stages", plan.growth),
+        contest("welding", "weld", plan.overlays),
+        contest("joining", "join", plan.overlays),
+    ]
+
+
+def limits(plan: Plan) -> list[Contest]:
+    """Every stage beside the least that it could cost."""
+    size = str(plan.rings)
+    return [
+        Contest(
+            "limits",
+            (
+                Entrant(BATIK, BATIK, own("stages", "stages", size, "plain"), True),
+                Entrant("limit", "the least", own("limits", "stages", size), True),
+            ),
+            plan.rounds,
+        ),
+        Contest(
+            "overlay limits",
+            (
+                Entrant("weld", BATIK, own("stages", "weld", str(plan.few)), True),
+                Entrant("join", BATIK, own("stages", "join", str(plan.few)), True),
+                Entrant("limit", "the least", own("limits", "overlays", str(plan.few)), True),
+            ),
+            plan.rounds,
+        ),
+    ]
+
+
+def start(plan: Plan) -> list[Contest]:
+    """Start-up."""
+    batik, vpype, python = str(OWN / "batik-vector"), str(PEERS / "vpype"), str(OWN / "python")
+    compile_ = (batik, "compile", FOUR_SQUARE, "-o", "{folder}", "-f", "svg")
+    commands = {
+        "batik --help": ("`batik-vector --help`", (batik, "--help")),
+        "batik --version": ("`batik-vector --version`", (batik, "--version")),
+        "batik compile": (f"`batik-vector compile {FOUR_SQUARE} -f svg`", compile_),
+        "vpype --help": ("`vpype --help`", (vpype, "--help")),
+        "vpype --version": ("`vpype --version`", (vpype, "--version")),
+        "python": ("`python -c pass`", (python, "-c", "pass")),
+        "numpy": ("`python -c 'import numpy, shapely'`", (python, "-c", "import numpy, shapely")),
+    }
+    entrants = (Entrant(name, says, command) for name, (says, command) in commands.items())
+    return [Contest("start", tuple(entrants), plan.starts)]
+
+
+def slider(plan: Plan) -> list[Contest]:
+    """Recipe to artwork within a running program."""
+    return [
+        Contest("slider", (Entrant(BATIK, BATIK, own("sliding", "slider", FOUR_SQUARE), True),), plan.rounds)
+    ]
+
+
+def levels(plan: Plan) -> list[Contest]:
+    """The layout of four squares at two levels."""
+    return [Contest("levels", (Entrant(BATIK, BATIK, own("sliding", "levels"), True),), plan.rounds)]
+
+
+def cloth(plan: Plan) -> list[Contest]:
+    """Metres of cloth."""
+    entrants = (
+        Entrant(str(metres), f"{metres} m", own("sliding", "cloth", str(metres), "{folder}"), True)
+        for metres in plan.cloth
+    )
+    return [Contest("cloth", tuple(entrants), plan.rounds)]
+
+
+def facts(section: str, plan: Plan) -> list[Fact]:
+    """Return what is to be found out about the files of a section."""
+    if section == "pdf":
+        return [Fact("pdf boxes", own("readback", "pdf", "{folder}/own.pdf"), plan.rings)]
+    if section != "dxf":
+        return []
+    audit = (str(PEERS / "python"), "-m", "benchmarks.readback", "audit", "{folder}/drawing.dxf")
+    return [
+        # The first writes the file that the others read.
+        Fact(
+            "dxf imports",
+            own("readback", "imports", "{folder}/drawing.dxf", "{folder}/drawing.toml"),
+            plan.few,
+        ),
+        Fact("dxf audit", audit, plan.few),
+        Fact("dxf librecad", own("readback", "librecad", "{folder}/drawing.dxf"), plan.few),
+    ]
+
+
+SECTIONS: Mapping[str, Callable[[Plan], list[Contest]]] = MappingProxyType(
+    {
+        "svg": svg,
+        "pdf": pdf,
+        "dxf": dxf,
+        "three": three,
+        "lines": lines,
+        "growth": growth,
+        "limits": limits,
+        "start": start,
+        "slider": slider,
+        "levels": levels,
+        "cloth": cloth,
+    }
+)
+"""The sections by name, in the order in which they run."""

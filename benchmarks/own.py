@@ -1,0 +1,54 @@
+"""batik_vector's own part: what is timed inside its process, one line of JSON for each call.
+
+python -m benchmarks.own prepare RINGS FOLDER      the drawing as coordinates and SVG, for the peers
+python -m benchmarks.own write RINGS FOLDER svg    a writer alone
+"""
+
+from __future__ import annotations
+
+import sys
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+import shapely
+
+from batik_vector.artwork import Artwork
+from batik_vector.compiler import compile_recipe
+from batik_vector.export import write_artwork
+from batik_vector.recipe import read_recipe
+from benchmarks.drawing import RING, recipe
+from benchmarks.peers.drawn import WARM, let_go, tell, timed
+
+
+def compiled(rings: int) -> Artwork:
+    """Return the drawing."""
+    return compile_recipe(read_recipe(recipe(rings)))
+
+
+def prepare(rings: int, folder: Path) -> None:
+    """Leave in the folder what peers draw: recipe, coordinates, and SVG for those that convert it."""
+    (folder / "drawing.toml").write_text(recipe(rings), encoding="utf-8")
+    (folder / "tiny.toml").write_text(recipe(WARM), encoding="utf-8")
+    artwork = compiled(rings)
+    (layer,) = artwork.layers
+    points = shapely.get_coordinates(layer.areas).reshape(rings, RING + 1, 2)
+    np.save(folder / "drawing.npy", points[:, :-1])
+    write_artwork(artwork, folder / "drawing.svg")
+    write_artwork(compiled(WARM), folder / "warm.svg")
+
+
+def write(rings: int, folder: Path, format_: str) -> None:
+    """Time a writer, once warm."""
+    write_artwork(compiled(WARM), folder / f"warm.own.{format_}")
+    artwork, path = compiled(rings), folder / f"own.{format_}"
+    let_go()
+    part, _ = timed(partial(write_artwork, artwork, path), path)
+    tell({"": part})
+
+
+if __name__ == "__main__":
+    if sys.argv[1] == "prepare":
+        prepare(int(sys.argv[2]), Path(sys.argv[3]))
+    else:
+        write(int(sys.argv[2]), Path(sys.argv[3]), sys.argv[4])
