@@ -87,12 +87,10 @@ class Element(Dress):
     spin: Annotated[float, Between(-360, 360), Says("degrees each copy is turned about itself")] = 0.0
     mirror: Annotated[bool, Says("also draw each copy's mirror image")] = False
 
-    @functools.cached_property
-    def copies(self) -> Affines:
-        """Where the curve is drawn."""
-        shift = Affine.translation((self.radius, 0)) @ Affine.turn(self.spin)
-        turned = turns([self.turn + self.arc * k / self.count for k in range(self.count)])
-        return (turned.after(Affines.of([IDENTITY, Affine.mirror(0)])) if self.mirror else turned) @ shift
+    @property
+    def ring(self) -> Ring:
+        """What says where the curve is drawn."""
+        return self.count, self.radius, self.turn, self.arc, self.spin, self.mirror
 
 
 @frozen(kw_only=True)
@@ -274,10 +272,10 @@ def draw(motif: Motif, tolerance: float | Callable[[Points], Array]) -> list[Fig
 
 
 def _draw(element: Element, tolerance: float | Callable[[Points], Array]) -> Figure:
-    copies = element.copies
     if not callable(tolerance):
         look = element.curve, element.fill, element.contours, tolerance
-        return Figure(element, *_copied(look, copies))
+        return Figure(element, *_copied(look, element.ring))
+    copies = copies_of(*element.ring)
 
     def everywhere(points: Points) -> Array:
         return np.asarray(np.min([tolerance(images) for images in copies.at(points)], axis=0))
@@ -291,10 +289,21 @@ Look: TypeAlias = tuple[Curve, FillRule, int, float]
 """What a curve's geometry hangs on: the curve, its fill rule, its contours, the tolerance."""
 
 
+Ring: TypeAlias = tuple[int, float, float, float, float, bool]
+"""The arguments of :func:`copies_of`."""
+
+
+def copies_of(count: int, radius: float, turn: float, arc: float, spin: float, mirror: bool) -> Affines:
+    """Return where the copies of an element are drawn: see :class:`Element`."""
+    shift = Affine.translation((radius, 0)) @ Affine.turn(spin)
+    turned = turns([turn + arc * k / count for k in range(count)])
+    return (turned.after(Affines.of([IDENTITY, Affine.mirror(0)])) if mirror else turned) @ shift
+
+
 @functools.lru_cache(maxsize=128)
-def _copied(look: Look, copies: Affines) -> tuple[Geometries, Geometries]:
+def _copied(look: Look, ring: Ring) -> tuple[Geometries, Geometries]:
     """Return areas and lines of a curve and its copies. Kept: who turns one knob draws the rest again."""
-    areas, lines = _turned(*_alone(look), copies, look[-1])
+    areas, lines = _turned(*_alone(look), copies_of(*ring), look[-1])
     for marks in (areas, lines):
         marks.flags.writeable = False
     return areas, lines

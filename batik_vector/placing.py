@@ -34,7 +34,7 @@ COARSE = 2e-3
 """Tolerance of the first drawing, in motif units: enough to measure it and to foretell its size."""
 
 GRID_SHARE = 1.5 * GRID_MM
-"""What is kept of the tolerance for the moves that vertices make onto the grid."""
+"""What is kept of the tolerance for moves onto the grid: 0.71 steps of a vertex, and as much of a copy."""
 
 SOURCE_SHARE = 0.2
 """Share of the tolerance that the source of a bent image may use; the bending itself has the rest."""

@@ -3,7 +3,7 @@
 The standard library writes out the methods of every frozen dataclass and compiles them, at half a
 millisecond a class: for the hundred classes of a recipe and its compiler that was a third of a short run. A
 value is such a dataclass to everybody (``fields``, ``replace``, ``asdict``, equality, hash, what it refuses),
-but all values share their methods, which look the fields up.
+but all values share their methods, which look the fields up. Heirs of a value are values too.
 """
 
 from __future__ import annotations
@@ -76,7 +76,7 @@ def defaults(made: Any) -> Mapping[str, Any]:
 def _init(self: Any, *args: Any, **given: Any) -> None:
     form = _form(self)
     if args:
-        given = {**dict(zip(form.positional, args, strict=False)), **_unfilled(self, form, args, given)}
+        given = _named(self, form, args, given)
     values = {**form.blank, **given}
     if len(values) > len(form.blank):
         unknown = next(name for name in given if name not in form.blank)
@@ -93,15 +93,15 @@ def _init(self: Any, *args: Any, **given: Any) -> None:
         self.__post_init__()
 
 
-def _unfilled(self: Any, form: _Form, args: tuple[Any, ...], given: dict[str, Any]) -> dict[str, Any]:
-    """Return what is given by name, with what was given by place as well refused."""
+def _named(self: Any, form: _Form, args: tuple[Any, ...], given: dict[str, Any]) -> dict[str, Any]:
+    """Return what is given by place and by name, all by name."""
     most = len(form.positional)
     if len(args) > most:
         raise TypeError(f"{_called(self)} takes {most} positional arguments but {len(args)} were given")
-    for name in form.positional[: len(args)]:
-        if name in given:
-            raise TypeError(f"{_called(self)} got multiple values for argument {name!r}")
-    return given
+    placed = dict(zip(form.positional, args, strict=False))
+    for name in placed.keys() & given.keys():
+        raise TypeError(f"{_called(self)} got multiple values for argument {name!r}")
+    return placed | given
 
 
 def _called(self: Any) -> str:

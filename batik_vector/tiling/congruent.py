@@ -19,6 +19,8 @@ import shapely
 from numpy.typing import NDArray
 
 from batik_vector.artwork import Geometries
+from batik_vector.geometry.ragged import Ragged
+from batik_vector.geometry.regions import oriented
 from batik_vector.outlines import Index, Offsets, Outlines, Steps, of_polygons, runs, to_polygons
 from batik_vector.tiling.torus import polygons_of, to_step_grid, translate
 from batik_vector.units import STEPS_PER_MM
@@ -181,8 +183,14 @@ class Stock:
 
     def mapped(self, copies: Copies, make: Callable[[Geometries], Geometries]) -> SetDown:
         """Make something else of each shape, and set it down for each copy."""
-        kinds, row = np.unique(copies.kind, return_inverse=True)
-        return self.set_down(make(self.shapes[kinds]), row.ravel(), copies.shift)
+        shapes, row = self.used(copies)
+        return self.set_down(make(shapes), row, copies.shift)
+
+    def used(self, copies: Copies) -> tuple[Geometries, Index]:
+        """Return the shapes that copies are of, and for each copy which of those it is of."""
+        there = np.zeros(len(self.shapes), bool)
+        there[copies.kind] = True
+        return self.shapes[there], (np.cumsum(there) - 1)[copies.kind]
 
     def bounds(self, copies: Copies) -> Steps:
         """Return left, lower, right and upper edge of each copy, shape (n, 4)."""
@@ -196,11 +204,12 @@ class Stock:
         """Return the copies as polygons in mm, outer rings anticlockwise and holes clockwise."""
         if not len(copies):
             return np.empty(0, dtype=object)
-        kinds, row = np.unique(copies.kind, return_inverse=True)
-        _, points, (rings, marks) = shapely.to_ragged_array(shapely.orient_polygons(self.shapes[kinds]))
-        which, ends = runs(np.asarray(marks, np.int64), row.ravel())
-        members, starts = runs(np.asarray(rings, np.int64), which)
-        points = points[members]
+        shapes, row = self.used(copies)
+        flat = Ragged.of(oriented(shapes))
+        assert flat.polygons is not None
+        which, ends = runs(flat.polygons, row)
+        members, starts = runs(flat.rings, which)
+        points = flat.points[members]
         sizes = np.diff(starts[ends])
         for axis in (0, 1):
             points[:, axis] += np.repeat(copies.shift[:, axis], sizes)

@@ -131,15 +131,25 @@ def spreads(maps: Affines, marks: Callable[[], Sequence[Geometries]] | None = No
     for label in range(count):
         numbers = np.flatnonzero(size == label)
         own = maps.taken(numbers)
-        first = Affines.of([own[0].linear])
-        carriers = _isometries(own)
-        phase = _phase(carriers)
+        carriers, first = _isometries(own), Affines.of([own[0].linear])
         # Of several sizes none is moved: those of one might meet those of another.
-        apart = marks is not None and count == 1 and (phase != phase[:1]).any()
-        if apart and marks is not None and not _meet([first.apply(part) for part in marks()], carriers):
-            phase = np.zeros_like(phase)
-        found.append(Spread(first, carriers, numbers, _groups(carriers, numbers, phase)))
+        moved = _moved(carriers, own[0].linear, marks) if marks is not None and count == 1 else carriers
+        groups = _groups(moved, numbers)
+        found.append(Spread(first, moved if groups else carriers, numbers, groups))
     return found
+
+
+def _moved(carriers: Affines, first: Affine, marks: Callable[[], Sequence[Geometries]]) -> Affines:
+    """Return copies moved onto whole grid steps, where that makes more of them alike."""
+    phase = _phase(carriers)
+    if (np.abs(phase - phase[0]) < 2 * NEAR).all():
+        # All by as much: they lie to one another as before.
+        move = -phase[:1] + (phase[:1] > 0.5)
+        return carriers if carriers.are_translates or not move.any() else carriers.moved(move / STEPS_PER_MM)
+    if _meet(np.concatenate([first.apply(part) for part in marks()]), carriers):
+        return carriers
+    steps = carriers.shifts * STEPS_PER_MM
+    return carriers.moved((np.rint(steps) - steps) / STEPS_PER_MM)
 
 
 def _isometries(maps: Affines) -> Affines:
@@ -164,7 +174,7 @@ def _kinds(carriers: Affines, phase: Array) -> Indices:
 
     Those are translates by whole steps and, of copies on whole steps, images under its symmetries as well.
     """
-    if carriers.are_translates and (phase == phase[:1]).all():
+    if carriers.are_translates and (np.abs(phase - phase[0]) < 2 * NEAR).all():
         return np.zeros(len(carriers), np.intp)
     a, _, c, _ = carriers.linear.T
     mirrored = carriers.determinants < 0
@@ -177,8 +187,9 @@ def _kinds(carriers: Affines, phase: Array) -> Indices:
     return _alike(np.column_stack([*rows, on_steps, mirrored & ~on_steps]))
 
 
-def _groups(carriers: Affines, numbers: Indices, phase: Array) -> tuple[Group, ...]:
-    """Return copies on the grid, each off whole steps by its phase; none where most are different."""
+def _groups(carriers: Affines, numbers: Indices) -> tuple[Group, ...]:
+    """Return copies on the grid, as they lie; none where most are different."""
+    phase = _phase(carriers)
     kind = _kinds(carriers, phase)
     count = int(kind.max()) + 1
     if 2 * count > len(kind):
@@ -195,12 +206,11 @@ def _groups(carriers: Affines, numbers: Indices, phase: Array) -> tuple[Group, .
     return tuple(found)
 
 
-def _meet(shapes: Sequence[Geometries], carriers: Affines) -> bool:
-    """Whether copies of shapes (mm) may meet along edges, or where lines end.
+def _meet(marks: Geometries, carriers: Affines) -> bool:
+    """Whether copies of marks (mm) may meet along edges, or where lines end.
 
     Every way in which two neighbours lie to one another is looked at once.
     """
-    marks = np.concatenate([np.empty(0, dtype=object), *shapes])
     points = shapely.get_coordinates(marks)
     centre = (points.min(axis=0) + points.max(axis=0)) / 2
     reach = 2 * float(np.hypot(*(points - centre).T).max()) + MEETING
@@ -213,7 +223,7 @@ def _meet(shapes: Sequence[Geometries], carriers: Affines) -> bool:
     apart = _cells(carriers.shifts[other] - carriers.shifts[one], MEETING)
     turns = _cells(carriers.linear, 100 * SIMILAR)
     rows = np.hstack([turns[one], turns[other], apart])
-    _, first = np.unique(rows, axis=0, return_index=True)
+    _, first = np.unique(_alike(rows), return_index=True)
     return len(first) > MOST_NEIGHBOURS or any(
         _share_an_edge(*(carriers.taken(i).apply(marks) for i in (one[k : k + 1], other[k : k + 1])))
         for k in first.tolist()

@@ -30,7 +30,7 @@ def united(groups: Sequence[Geometries]) -> Geometries:
     joined = np.empty(len(groups), dtype=object)
     sizes = np.array([len(group) for group in groups], np.intp)
     # Groups of about one size are united in one call: a row may end in nothing.
-    for power in np.unique(_powers(sizes)):
+    for power in sorted(set(_powers(sizes).tolist())):
         rows = np.flatnonzero(_powers(sizes) == power)
         table = np.full((len(rows), 2**power), None, dtype=object)
         for row, group in zip(table, rows.tolist(), strict=True):

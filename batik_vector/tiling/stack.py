@@ -151,14 +151,14 @@ def _cut_into(torus: Torus, pile: Pile, cutters: Laid) -> tuple[NDArray[np.bool_
         if len(sheet.lines):
             copies, of = torus.stock.settled(_bodies(sheet.lines, sheet.ink.width / 2))
             hit = _hit(torus, Laid(copies, np.full(len(copies), number)), cutters)
-            lines[number] = np.delete(sheet.lines, np.unique(of[hit]))
+            lines[number] = np.delete(sheet.lines, of[hit])
     return out, lines
 
 
 def _hit(torus: Torus, marks: Laid, cutters: Laid) -> Index:
-    """Return which marks something above would cut into."""
+    """Return which marks something above would cut into, some of them several times."""
     pieces, of = torus.areas(marks.copies)
-    return np.unique(of[touched(torus.stock, Laid(pieces, marks.sheet[of]), cutters)])
+    return of[touched(torus.stock, Laid(pieces, marks.sheet[of]), cutters)]
 
 
 def _bodies(lines: Geometries, reach: float) -> Geometries:

@@ -9,6 +9,7 @@ x = W are the same bits.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,7 @@ import shapely
 from numpy.typing import NDArray
 
 from batik_vector.artwork import Geometries
+from batik_vector.geometry.ragged import Ragged
 from batik_vector.tiling import overlay
 from batik_vector.units import STEPS_PER_MM
 from batik_vector.values import frozen
@@ -202,19 +204,16 @@ def _inside_and_crossing(marks: Geometries, window: Window) -> tuple[NDArray[np.
 def _split_polygons(areas: Geometries, window: Window) -> Geometries:
     if not len(areas):
         return areas
-    _, coords, (rings, polygons) = shapely.to_ragged_array(areas)
-    split, offsets = split_at(np.rint(coords).astype(np.int64), rings.astype(np.int64), window)
-    return np.asarray(
-        shapely.from_ragged_array(shapely.GeometryType.POLYGON, split.astype(float), (offsets, polygons)),
-        dtype=object,
-    )
+    flat = Ragged.of(areas)
+    split, offsets = split_at(np.rint(flat.points).astype(np.int64), flat.rings, window)
+    return replace(flat, points=split.astype(float), rings=offsets).geometries()
 
 
 def _split_lines(lines: Geometries, window: Window) -> tuple[Steps, Steps]:
     if not len(lines):
         return np.empty((0, 2), np.int64), np.zeros(1, np.int64)
-    _, coords, (offsets,) = shapely.to_ragged_array(lines)
-    return split_at(np.rint(coords).astype(np.int64), offsets.astype(np.int64), window)
+    flat = Ragged.of(lines)
+    return split_at(np.rint(flat.points).astype(np.int64), flat.rings, window)
 
 
 def split_at(coords: Steps, offsets: Steps, window: Window) -> tuple[Steps, Steps]:

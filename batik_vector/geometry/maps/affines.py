@@ -98,6 +98,10 @@ class Affines(Sequence[Affine]):
         pairs = _composed(self.rows[:, None, :], inner.rows[None, :, :])
         return Affines(pairs.reshape(-1, 6))
 
+    def moved(self, shifts: Points) -> Affines:
+        """Return the maps followed by moves, shape (n, 2), or (1, 2) for one of all."""
+        return Affines(np.hstack([self.linear, self.shifts + shifts]))
+
     def taken(self, which: Indices | NDArray[np.bool_]) -> Affines:
         """Return some of the maps, by number or by a mask."""
         return Affines(self.rows[which])
