@@ -15,6 +15,7 @@ from batik_vector.geometry.maps.affine import Affine
 from batik_vector.geometry.sampling import Array
 from batik_vector.motif import Figure, Motif, Treatment, draw
 from batik_vector.placement import Placement
+from batik_vector.tiling.congruent import polygons
 from batik_vector.tiling.layouts import Clear, Stripes, Toss
 from batik_vector.tiling.orbits import Orbit
 from batik_vector.tiling.sheets import Sheet
@@ -202,7 +203,7 @@ def _taken(spec: Toss, placement: Placement, ground: Ground) -> Field:
 
 def _merged(sheets: Sequence[Sheet], close: float, tolerance: float) -> Geometries:
     """Return all that sheets draw, with gaps up to twice ``close`` shut, coarsely and never too small."""
-    shapes = [sheet.areas for sheet in sheets if sheet.ink is not None]
+    shapes = [polygons(sheet.areas) for sheet in sheets if sheet.ink is not None]
     shapes += [
         np.asarray(shapely.buffer(sheet.lines, sheet.ink.width / 2), dtype=object)
         for sheet in sheets

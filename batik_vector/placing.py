@@ -21,6 +21,7 @@ from batik_vector.model import Recipe
 from batik_vector.motif import Figure, Motif, Treatment, draw
 from batik_vector.placement import Placement
 from batik_vector.spreading import Laid, Look, set_down, sized
+from batik_vector.tiling.congruent import vertex_count
 from batik_vector.tiling.layouts import Bend, Stripes, Toss
 from batik_vector.tiling.orbits import TRIVIAL, Orbit
 from batik_vector.tiling.sheets import Sheet
@@ -132,8 +133,8 @@ def _placed(
     look = Look(placement, inks, tolerance)
     parts = [set_down(laid, name, look) for name, laid in drawn.items()]
     sheets = [sheet for bare, _ in parts for sheet in bare] + [sheet for _, own in parts for sheet in own]
-    marks = np.concatenate([part for sheet in sheets for part in (sheet.areas, sheet.lines)])
-    return Placed(sheets, int(shapely.get_num_coordinates(marks).sum()), tossed)
+    vertices = sum(vertex_count(part) for sheet in sheets for part in (sheet.areas, sheet.lines))
+    return Placed(sheets, vertices, tossed)
 
 
 def _ground(

@@ -15,8 +15,10 @@ from batik_vector.artwork import Geometries, Ink, Overlap
 from batik_vector.errors import RecipeError, UnknownNameError
 from batik_vector.geometry.maps.affines import Affines
 from batik_vector.motif import Element, Figure, Treatment
+from batik_vector.outlines import Index
 from batik_vector.placement import Placement
-from batik_vector.tiling.landing import Spread, joined, spreads
+from batik_vector.tiling.congruent import Areas, polygons
+from batik_vector.tiling.landing import Spread, joined, landed, spreads
 from batik_vector.tiling.sheets import Sheet, quad_segs
 from batik_vector.values import frozen
 
@@ -69,10 +71,9 @@ def set_down(laid: Laid, motif: str, look: Look) -> tuple[list[Sheet], list[Shee
         figures = sized(laid.figures, spread.first)
         bare = _bare(figures, motif, look)
         patterns.append(bare + [sheet for figure in figures for sheet in _sheets(figure, motif, look)])
-    areas = _carried(
-        groups, [[part for sheet in own for part in (sheet.areas, sheet.cutter)] for own in patterns]
-    )
-    lines = _carried(groups, [[sheet.lines for sheet in own] for own in patterns])
+    shapes = [[polygons(part) for sheet in own for part in (sheet.areas, sheet.cutter)] for own in patterns]
+    areas = _areas(groups, shapes)
+    lines = _lines(groups, [[sheet.lines for sheet in own] for own in patterns])
     sheets = [
         replace(sheet, areas=areas[2 * i], cutter=areas[2 * i + 1], lines=lines[i])
         for i, sheet in enumerate(patterns[0])
@@ -80,21 +81,37 @@ def set_down(laid: Laid, motif: str, look: Look) -> tuple[list[Sheet], list[Shee
     return sheets[: len(bare)], sheets[len(bare) :]
 
 
-def _carried(groups: Sequence[Spread], parts: Sequence[list[Geometries]]) -> list[Geometries]:
-    """Return all copies of several arrays of marks, in the order of the copies.
+def _areas(groups: Sequence[Spread], parts: Sequence[list[Geometries]]) -> list[Areas]:
+    """Return all copies of several arrays of polygons, in the order of the copies; on the grid where they are.
 
     Args:
         groups: of copies.
         parts: for each group the arrays, which ``first`` has brought to their size.
     """
+    count = [len(part) for part in parts[0]]
+    if not any(count):
+        return [*parts[0]]
+    found = [group.landed(np.concatenate(own)) for group, own in zip(groups, parts, strict=True)]
+    on_grid = [each for each in found if each is not None]
+    if len(on_grid) < len(found):
+        return [*_lines(groups, parts)]
+    areas, copy, mark = landed(on_grid)
+    return [areas.taken(which) for which in _parted(count, copy, mark)]
+
+
+def _lines(groups: Sequence[Spread], parts: Sequence[list[Geometries]]) -> list[Geometries]:
+    """Return all copies of several arrays of marks, in the order of the copies."""
     if (len(groups) == 1 and groups[0].is_done) or not any(len(part) for part in parts[0]):
         return parts[0]
     found = joined([group.images(np.concatenate(own)) for group, own in zip(groups, parts, strict=True)])
-    count = [len(part) for part in parts[0]]
-    part = np.repeat(np.arange(len(count)), count)[found.mark]
-    order = np.lexsort((found.mark, found.copy, part))
-    ends = np.cumsum(np.bincount(part, minlength=len(count)))
-    return np.split(found.geometries[order], ends[:-1])
+    return [found.geometries[which] for which in _parted([len(p) for p in parts[0]], found.copy, found.mark)]
+
+
+def _parted(count: Sequence[int], copy: Index, mark: Index) -> list[Index]:
+    """Return which images belong to each of several arrays of ``count`` marks, in the order of the copies."""
+    part = np.repeat(np.arange(len(count)), count)[mark]
+    order = np.lexsort((mark, copy, part))
+    return np.split(order, np.cumsum(np.bincount(part, minlength=len(count)))[:-1])
 
 
 def _sheets(figure: Figure, motif: str, look: Look) -> list[Sheet]:

@@ -19,6 +19,7 @@ from batik_vector.reading.quick import built
 from batik_vector.reading.slow import validated
 from batik_vector.recipe import read_recipe
 from batik_vector.tiling.cells import TileSpec
+from batik_vector.tiling.congruent import polygons
 from batik_vector.tiling.field import repeated
 from batik_vector.tiling.layouts import Clear, Lattice, Layout, Stripes, Toss
 
@@ -130,7 +131,7 @@ def test_the_report_of_a_toss_is_at_hand() -> None:
     report = placed.tossed.report
     assert report.motifs == ("leaf", "dot")
     assert report.counts == (3, 6)
-    drawn = sum(float(shapely.area(sheet.areas).sum()) for sheet in placed.sheets)
+    drawn = sum(float(shapely.area(polygons(sheet.areas)).sum()) for sheet in placed.sheets)
     assert report.covers == pytest.approx(drawn / 48**2, rel=0.02)
 
 

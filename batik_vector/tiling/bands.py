@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from batik_vector.artwork import Cell, Geometries, Ink, Layer, Overlap
 from batik_vector.geometry.sampling import Array, Indices, Points
 from batik_vector.tiling import seams
+from batik_vector.tiling.congruent import polygons
 from batik_vector.tiling.sheets import Sheet
 from batik_vector.tiling.stack import assemble
 from batik_vector.tiling.torus import (
@@ -296,7 +297,9 @@ def _extent(sheets: Sequence[Sheet], box: tuple[int, int]) -> tuple[NDArray[np.i
     reach = max(
         (sheet.gap or 0.0) + (sheet.ink.width if sheet.ink else 0.0) + sheet.margin for sheet in sheets
     )
-    every = np.concatenate([part for s in sheets for part in (s.areas, s.lines, s.cutter)])
+    every = np.concatenate(
+        [part for s in sheets for part in (polygons(s.areas), s.lines, polygons(s.cutter))]
+    )
     bounds = shapely.total_bounds(every) if len(every) else np.zeros(4)
     bounds = np.rint(bounds * STEPS_PER_MM) + np.array([-1, -1, 1, 1]) * (
         round(reach * STEPS_PER_MM) + MARGIN
@@ -311,7 +314,10 @@ def _shifted(sheet: Sheet, by: Array) -> Sheet:
         return np.asarray(shapely.transform(marks, lambda xy: xy + by), dtype=object) if len(marks) else marks
 
     return replace(
-        sheet, areas=shifted(sheet.areas), lines=shifted(sheet.lines), cutter=shifted(sheet.cutter)
+        sheet,
+        areas=shifted(polygons(sheet.areas)),
+        lines=shifted(sheet.lines),
+        cutter=shifted(polygons(sheet.cutter)),
     )
 
 

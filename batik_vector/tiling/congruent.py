@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 import shapely
@@ -115,6 +115,41 @@ class Copies:
         return Copies(self.kind, self.shift + shift)
 
 
+@frozen(eq=False)
+class Repeated:
+    """Areas as copies: copy i is ``shapes[which[i]]``, a valid polygon on the grid, moved by ``shift[i]``."""
+
+    shapes: Geometries
+    which: Index
+    shift: Steps
+
+    def __len__(self) -> int:
+        return len(self.which)
+
+    def taken(self, which: Index) -> Repeated:
+        """Return some of the copies."""
+        return Repeated(self.shapes, self.which[which], self.shift[which])
+
+
+Areas: TypeAlias = Geometries | Repeated
+"""Areas in mm: polygons, or copies on the grid."""
+
+
+def polygons(areas: Areas) -> Geometries:
+    """Return areas as polygons in mm."""
+    if not isinstance(areas, Repeated):
+        return areas
+    stock = Stock()
+    return stock.in_mm(stock.copies([areas])[0])
+
+
+def vertex_count(areas: Areas) -> int:
+    """Return how many vertices areas have."""
+    if isinstance(areas, Repeated):
+        return int(shapely.get_num_coordinates(areas.shapes)[areas.which].sum())
+    return int(shapely.get_num_coordinates(areas).sum())
+
+
 def together(parts: Sequence[Copies]) -> Copies:
     """Return several sets of copies as one."""
     if not parts:
@@ -172,6 +207,13 @@ class Stock:
         corner = steps.bounds()[:, :2]
         heads, number = _different(steps, corner)
         return self.add(areas[heads]).taken(number).moved(corner - corner[heads][number])
+
+    def copies(self, parts: Sequence[Repeated]) -> list[Copies]:
+        """Take up areas that are copies already; an array of shapes that several share is looked at once."""
+        arrays = {id(part.shapes): part.shapes for part in parts}
+        shapes = self.taken_up(np.concatenate([np.empty(0, dtype=object), *arrays.values()]))
+        first = dict(zip(arrays, np.cumsum([0, *map(len, arrays.values())]).tolist(), strict=False))
+        return [shapes.taken(first[id(p.shapes)] + p.which).moved(p.shift) for p in parts]
 
     def set_down(self, results: Geometries, row: Index, shift: Steps) -> SetDown:
         """Set down the polygons of result ``row[i]`` at ``shift[i]`` for every i."""

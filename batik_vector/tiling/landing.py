@@ -20,6 +20,7 @@ from batik_vector.geometry.maps.affine import SIMILAR, Affine
 from batik_vector.geometry.maps.affines import ONE, Affines
 from batik_vector.geometry.ragged import Ragged
 from batik_vector.geometry.sampling import Array, Geometries, Indices, Points
+from batik_vector.tiling.congruent import Repeated, alike
 from batik_vector.tiling.torus import polygons_of, to_step_grid
 from batik_vector.units import GRID_MM, STEPS_PER_MM
 from batik_vector.values import frozen
@@ -32,6 +33,14 @@ MEETING = 2.5 * GRID_MM
 
 MOST_NEIGHBOURS = 24
 """Ways to lie beside one another that are looked at before copies are taken to meet."""
+
+
+class Landed(NamedTuple):
+    """Copies on the grid, in any order: ``copy`` and ``mark`` as of :class:`Images`."""
+
+    areas: Repeated
+    copy: Indices
+    mark: Indices
 
 
 class Images(NamedTuple):
@@ -56,8 +65,30 @@ class Group:
     carriers: Affines
     numbers: Indices
 
-    def images(self, marks: Geometries) -> Images:
-        """Return the copies of marks in mm, each coordinate the float k / 1000."""
+    def landed(self, areas: Geometries) -> Landed:
+        """Return the copies of polygons (mm) as such: the polygons are brought to the grid once."""
+        outlines, points, mark = self._on_grid(areas)
+        heads, turn = alike(self.carriers.linear.astype(np.int64))
+        turned = self.carriers.taken(heads)
+        places = Affines.of([each.linear for each in turned]).at(points) + 0.0
+        shapes = outlines.images(places, turned.determinants < 0)
+        which = (turn[:, None] * len(mark) + np.arange(len(mark))).ravel()
+        shift = np.repeat(self.carriers.shifts.astype(np.int64), len(mark), axis=0)
+        return Landed(
+            Repeated(shapes, which, shift),
+            np.repeat(self.numbers, len(mark)),
+            np.tile(mark, len(self.numbers)),
+        )
+
+    def images(self, lines: Geometries) -> Images:
+        """Return the copies of lines in mm, each coordinate the float k / 1000."""
+        outlines, points, mark = self._on_grid(lines)
+        # + 0.0, lest a turn leave a zero with a sign.
+        places = (self.carriers.at(points) + 0.0) / STEPS_PER_MM
+        return _numbered(outlines.images(places), self.numbers, mark)
+
+    def _on_grid(self, marks: Geometries) -> tuple[Ragged, Array, Indices]:
+        """Return marks turned and rounded: as arrays, with their points, and which mark each is of."""
         mark = np.arange(len(marks))
         if areal := shapely.get_dimensions(marks[0]) == 2:
             marks, mark = polygons_of(marks, mark)
@@ -66,11 +97,8 @@ class Group:
         shapes = outlines.images(points, np.array([self.turn.determinant < 0]))
         if areal and not shapely.is_valid(shapes).all():
             shapes, mark = polygons_of(to_step_grid(self.turn.apply(marks)), mark)
-            outlines = Ragged.of(shapes)
-            points = outlines.points[None]
-        # + 0.0, lest a turn leave a zero with a sign.
-        places = (self.carriers.at(points[0]) + 0.0) / STEPS_PER_MM
-        return _numbered(outlines.images(places, self.carriers.determinants < 0), self.numbers, mark)
+        outlines = Ragged.of(shapes)
+        return outlines, outlines.points, mark
 
 
 @frozen(eq=False)
@@ -94,6 +122,10 @@ class Spread:
         """Whether ``first`` has brought everything to its place."""
         return self.carriers is ONE
 
+    def landed(self, areas: Geometries) -> Landed | None:
+        """Return the copies of polygons that ``first`` has brought to their size; None without groups."""
+        return landed([group.landed(areas) for group in self.groups]) if self.groups else None
+
     def images(self, marks: Geometries) -> Images:
         """Return the copies of marks, polygons or lines, which ``first`` has brought to their size."""
         if self.groups and len(marks):
@@ -103,6 +135,22 @@ class Spread:
 
 def _numbered(geometries: Geometries, numbers: Indices, mark: Indices) -> Images:
     return Images(geometries, np.repeat(numbers, len(mark)), np.tile(mark, len(numbers)))
+
+
+def landed(parts: Sequence[Landed]) -> Landed:
+    """Return several sets of copies as one."""
+    if len(parts) == 1:
+        return parts[0]
+    first = np.cumsum([0, *(len(part.areas.shapes) for part in parts[:-1])])
+    return Landed(
+        Repeated(
+            np.concatenate([part.areas.shapes for part in parts]),
+            np.concatenate([part.areas.which + at for part, at in zip(parts, first, strict=True)]),
+            np.concatenate([part.areas.shift for part in parts]),
+        ),
+        np.concatenate([part.copy for part in parts]),
+        np.concatenate([part.mark for part in parts]),
+    )
 
 
 def joined(parts: Sequence[Images]) -> Images:

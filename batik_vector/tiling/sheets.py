@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from batik_vector.artwork import Geometries, Ink
 from batik_vector.outlines import Index
 from batik_vector.tiling import overlay
-from batik_vector.tiling.congruent import Copies, Stock, together
+from batik_vector.tiling.congruent import Areas, Copies, Repeated, Stock, together
 from batik_vector.units import STEPS_PER_MM
 from batik_vector.values import frozen
 
@@ -38,10 +38,10 @@ class Sheet:
 
     name: str
     ink: Ink | None
-    areas: Geometries = field(default_factory=_none)
+    areas: Areas = field(default_factory=_none)
     lines: Geometries = field(default_factory=_none)
     gap: float | None = None
-    cutter: Geometries = field(default_factory=_none)
+    cutter: Areas = field(default_factory=_none)
     whole: bool = False
     margin: float = 0.0
 
@@ -79,23 +79,21 @@ class Pile:
         sheets: as given.
         stock: of which the copies are.
         tolerance: in mm, for the round corners of what is grown.
+        areas: of all sheets, and the shapes of those that cut with another.
         drawn: the areas of all sheets that have an ink.
     """
 
     def __init__(self, sheets: Sequence[Sheet], stock: Stock, tolerance: float) -> None:
         self.sheets, self.stock, self.tolerance = sheets, stock, tolerance
         own = [sheet.cutter if sheet.gap is not None else _none() for sheet in sheets]
-        marks = [*(sheet.areas for sheet in sheets), *own]
-        number = np.repeat(np.arange(2 * len(sheets)), [len(each) for each in marks])
-        copies, of = stock.settled(np.concatenate([_none(), *marks]))
-        place = number[of] if len(of) else np.empty(0, np.intp)
-        all_areas = Laid(copies, place % max(len(sheets), 1))
+        copies, place = _taken_up(stock, [*(sheet.areas for sheet in sheets), *own])
+        self.areas = Laid(copies, place % max(len(sheets), 1))
         has_ink = np.array([sheet.ink is not None for sheet in sheets], bool)
         cuts = np.array([sheet.gap is not None for sheet in sheets], bool)
         has_own = np.array([len(each) > 0 for each in own], bool)
         second = place >= len(sheets)
-        self.drawn = all_areas.taken(~second & has_ink[all_areas.sheet])
-        self._cutting = all_areas.taken(cuts[all_areas.sheet] & (second == has_own[all_areas.sheet]))
+        self.drawn = self.areas.taken(~second & has_ink[self.areas.sheet])
+        self._cutting = self.areas.taken(cuts[self.areas.sheet] & (second == has_own[self.areas.sheet]))
 
     def cutters(self, above: int = -1, extra: float = 0.0) -> Laid:
         """Return what sheets above a number cut away: their shapes, grown by gap and ``extra`` (mm)."""
@@ -126,3 +124,14 @@ class Pile:
 
         down = self.stock.mapped(laid.copies, grow)
         return Laid(down.copies, laid.sheet[down.each])
+
+
+def _taken_up(stock: Stock, parts: Sequence[Areas]) -> tuple[Copies, Index]:
+    """Bring all areas to the grid; return them in their order, and the number of the part of each."""
+    number = np.repeat(np.arange(len(parts)), [len(each) for each in parts])
+    repeated = np.array([isinstance(each, Repeated) for each in parts], bool)[number]
+    settled, of = stock.settled(np.concatenate([_none(), *(p for p in parts if not isinstance(p, Repeated))]))
+    copies = together([settled, *stock.copies([each for each in parts if isinstance(each, Repeated)])])
+    place = np.concatenate([number[~repeated][of], number[repeated]])
+    order = np.argsort(place, kind="stable")
+    return copies.taken(order), place[order]

@@ -57,9 +57,9 @@ def assemble(
         TooLargeError: with the estimate, where the marks reach over too many repeats.
         SeamError: where opposite edges disagree however the seam is placed.
     """
-    _refuse_too_many(sheets, cell, lattice)
     stock = Stock()
     pile = Pile(sheets, stock, tolerance)
+    _refuse_too_many(pile, cell, lattice)
     for phase in range(PHASES):
         torus = Torus(stock, cell, lattice, np.array(PHASE_STEP, np.int64) * phase)
         layers = _assemble_on(torus, pile, inks)
@@ -68,22 +68,23 @@ def assemble(
     raise SeamError(f"opposite edges of the tile disagree at {PHASES} positions of the seam")
 
 
-def _refuse_too_many(sheets: Sequence[Sheet], cell: Cell, lattice: Lattice) -> None:
+def _refuse_too_many(pile: Pile, cell: Cell, lattice: Lattice) -> None:
     (ax, ay), (bx, by) = lattice
-    per_mm2 = STEPS_PER_MM**2 / (ax * by - ay * bx)
-    total = 0.0
-    for part in (part for sheet in sheets for part in (sheet.areas, sheet.lines)):
-        marks = part[~shapely.is_empty(part)]
-        if not len(marks):
-            continue
-        low_x, low_y, high_x, high_y = shapely.bounds(marks).T
-        repeats = (high_x - low_x + cell.width) * (high_y - low_y + cell.height) * per_mm2
-        if repeats.max() > MAX_REPEATS:
-            raise TooLargeError(
-                f"a mark reaches over about {repeats.max():,.0f} repeats, past {MAX_REPEATS:,}: "
-                "expected a larger tile or smaller marks"
-            )
-        total += float((repeats * shapely.get_num_coordinates(marks)).sum())
+    lines = np.concatenate([np.empty(0, dtype=object), *(sheet.lines for sheet in pile.sheets)])
+    lines = lines[~shapely.is_empty(lines)]
+    bounds = np.vstack([pile.stock.bounds(pile.areas.copies), shapely.bounds(lines) * STEPS_PER_MM])
+    if not len(bounds):
+        return
+    vertices = shapely.get_num_coordinates(pile.stock.shapes)[pile.areas.copies.kind]
+    vertices = np.concatenate([vertices, shapely.get_num_coordinates(lines)])
+    width, height = bounds[:, 2] - bounds[:, 0], bounds[:, 3] - bounds[:, 1]
+    repeats = (width + cell.columns) * (height + cell.rows) / (ax * by - ay * bx)
+    if repeats.max() > MAX_REPEATS:
+        raise TooLargeError(
+            f"a mark reaches over about {repeats.max():,.0f} repeats, past {MAX_REPEATS:,}: "
+            "expected a larger tile or smaller marks"
+        )
+    total = float((repeats * vertices).sum())
     if total > MAX_VERTICES:
         raise TooLargeError(
             f"the marks reach over so many repeats that they have about {total:,.0f} vertices: "
