@@ -82,7 +82,7 @@ def set_down(laid: Laid, motif: str, look: Look) -> tuple[list[Sheet], list[Shee
 
 
 def _areas(groups: Sequence[Spread], parts: Sequence[list[Geometries]]) -> list[Areas]:
-    """Return all copies of several arrays of polygons, in the order of the copies; on the grid where they are.
+    """Return all copies of several arrays of polygons, in the copies' order; on the grid where they are.
 
     Args:
         groups: of copies.

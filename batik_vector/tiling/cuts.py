@@ -15,7 +15,7 @@ from batik_vector.outlines import Index, Offsets, Steps
 from batik_vector.tiling import overlay
 from batik_vector.tiling.congruent import Copies, Stock, alike
 from batik_vector.tiling.sheets import Laid, joined
-from batik_vector.tiling.torus import translate
+from batik_vector.tiling.torus import Lattice, Window, reduced, translate, translates
 from batik_vector.tiling.weld import components, unions
 from batik_vector.values import frozen
 
@@ -23,8 +23,12 @@ CUT_SHARE = 0.05
 """What a cutter's vertex costs in a cut, of what it costs in a union: most lie far from the mark."""
 
 
-def cut(stock: Stock, marks: Laid, cutters: Laid) -> Laid:
-    """Return what cutters in higher sheets leave of marks, in the order of the marks."""
+def cut(stock: Stock, marks: Laid, cutters: Laid, lattice: Lattice) -> Laid:
+    """Return what cutters in higher sheets leave of marks, in the order of the marks.
+
+    Marks and cutters repeat on the lattice. Whatever meets is cut where it lies, across all seams.
+    """
+    cutters, marks = _beside(stock, marks, cutters, lattice)
     mark, cutter = _above(stock, marks, cutters)
     met = stock.holds(shapely.intersects, marks.copies.taken(mark), cutters.copies.taken(cutter))
     mark, cutter = mark[met], cutter[met]
@@ -41,8 +45,9 @@ def cut(stock: Stock, marks: Laid, cutters: Laid) -> Laid:
     return joined([marks.taken(whole), Laid(down.copies, marks.sheet[which[down.each]])]).taken(order)
 
 
-def touched(stock: Stock, marks: Laid, cutters: Laid) -> NDArray[np.bool_]:
+def touched(stock: Stock, marks: Laid, cutters: Laid, lattice: Lattice) -> NDArray[np.bool_]:
     """Return which marks a cutter in a higher sheet would cut into."""
+    cutters, marks = _beside(stock, marks, cutters, lattice)
     mark, cutter = _above(stock, marks, cutters)
     a, b = marks.copies.taken(mark), cutters.copies.taken(cutter)
     into = stock.holds(_cuts_into, a, b)
@@ -53,6 +58,19 @@ def touched(stock: Stock, marks: Laid, cutters: Laid) -> NDArray[np.bool_]:
 
 def _cuts_into(marks: Geometries, cutters: Geometries) -> NDArray[np.bool_]:
     return np.asarray(shapely.relate_pattern(marks, cutters, "T********"))
+
+
+def _beside(stock: Stock, marks: Laid, cutters: Laid, lattice: Lattice) -> tuple[Laid, Laid]:
+    """Return all cutters that may meet marks, and the marks, each brought to the cell at the origin."""
+    if not len(marks.sheet) or not len(cutters.sheet):
+        return cutters, marks
+    bounds = stock.bounds(marks.copies)
+    home = reduced(bounds[:, :2], lattice) - bounds[:, :2]
+    marks = Laid(marks.copies.moved(home), marks.sheet)
+    bounds = bounds + np.tile(home, 2)
+    window = Window(*bounds[:, :2].min(axis=0).tolist(), *bounds[:, 2:].max(axis=0).tolist())
+    which, shift = translates(stock.bounds(cutters.copies), lattice, window)
+    return Laid(cutters.copies.taken(which).moved(shift), cutters.sheet[which]), marks
 
 
 def _above(stock: Stock, marks: Laid, cutters: Laid) -> tuple[Index, Index]:

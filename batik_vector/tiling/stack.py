@@ -7,6 +7,7 @@ of every ink is wrapped round the cell, cut at its edges and, where its ink says
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 import shapely
@@ -37,6 +38,13 @@ PHASE_STEP = (13, 17)
 """By how many grid steps the design is moved for each new try."""
 
 
+class Cut(NamedTuple):
+    """What upper sheets leave of lower ones: areas not yet wrapped, and in mm the lines of each sheet."""
+
+    areas: Laid
+    lines: list[Geometries]
+
+
 def assemble(
     sheets: Sequence[Sheet], inks: Sequence[Ink], cell: Cell, lattice: Lattice, tolerance: float
 ) -> tuple[tuple[Layer, ...], Borders]:
@@ -60,9 +68,10 @@ def assemble(
     stock = Stock()
     pile = Pile(sheets, stock, tolerance)
     _refuse_too_many(pile, cell, lattice)
+    left = _cut(pile, lattice)
     for phase in range(PHASES):
         torus = Torus(stock, cell, lattice, np.array(PHASE_STEP, np.int64) * phase)
-        layers = _assemble_on(torus, pile, inks)
+        layers = _assemble_on(torus, pile, left, inks)
         if layers is not None:
             return layers, frozenset(torus.borders)
     raise SeamError(f"opposite edges of the tile disagree at {PHASES} positions of the seam")
@@ -92,15 +101,9 @@ def _refuse_too_many(pile: Pile, cell: Cell, lattice: Lattice) -> None:
         )
 
 
-def _assemble_on(torus: Torus, pile: Pile, inks: Sequence[Ink]) -> tuple[Layer, ...] | None:
+def _assemble_on(torus: Torus, pile: Pile, cut: Cut, inks: Sequence[Ink]) -> tuple[Layer, ...] | None:
     """Do the work of :func:`assemble` at one place of the seam; None where it falls badly."""
-    laid = joined([pile.drawn, pile.cutters()])
-    copies, of = torus.areas(laid.copies)
-    marks = of < len(pile.drawn.sheet)
-    cutters = Laid(copies, laid.sheet[of]).taken(~marks)
-    out, lines = _cut_into(torus, pile, cutters)
-    marks[marks] = ~out[of[marks]]
-    drawn = cut(torus.stock, Laid(copies, laid.sheet[of]).taken(marks), cutters)
+    drawn, lines = _wrapped(torus, cut.areas), cut.lines
     strokes = [
         (sheet.ink.name, _strokes(torus, pile, number, lines[number]))
         for number, sheet in enumerate(pile.sheets)
@@ -135,12 +138,19 @@ def _together(parts: Sequence[Lines]) -> Lines:
     )
 
 
-def _cut_into(torus: Torus, pile: Pile, cutters: Laid) -> tuple[NDArray[np.bool_], list[Geometries]]:
+def _cut(pile: Pile, lattice: Lattice) -> Cut:
+    """Return what sheets leave of one another."""
+    cutters = pile.cutters()
+    out, lines = _left_out(pile, cutters, lattice)
+    return Cut(cut(pile.stock, pile.drawn.taken(~out), cutters, lattice), lines)
+
+
+def _left_out(pile: Pile, cutters: Laid, lattice: Lattice) -> tuple[NDArray[np.bool_], list[Geometries]]:
     """Return which areas are left out, being whole or nothing and cut; and what lines of each sheet stay.
 
-    A mark is asked for as a whole, wherever the seam divides it, and with the body of its line; a closed
-    line stands for what it encloses.
+    A mark is asked for with the body of its line; a closed line stands for what it encloses.
     """
+    stock = pile.stock
     lines = [sheet.lines for sheet in pile.sheets]
     out = np.zeros(len(pile.drawn.sheet), bool)
     for number, sheet in enumerate(pile.sheets):
@@ -148,18 +158,12 @@ def _cut_into(torus: Torus, pile: Pile, cutters: Laid) -> tuple[NDArray[np.bool_
             continue
         mine = np.flatnonzero(pile.drawn.sheet == number)
         # Growing divides no shape, so that each copy has one body.
-        out[mine[_hit(torus, pile.grown(pile.drawn.taken(mine), sheet.margin), cutters)]] = True
+        out[mine] = touched(stock, pile.grown(pile.drawn.taken(mine), sheet.margin), cutters, lattice)
         if len(sheet.lines):
-            copies, of = torus.stock.settled(_bodies(sheet.lines, sheet.ink.width / 2))
-            hit = _hit(torus, Laid(copies, np.full(len(copies), number)), cutters)
+            copies, of = stock.settled(_bodies(sheet.lines, sheet.ink.width / 2))
+            hit = touched(stock, Laid(copies, np.full(len(copies), number)), cutters, lattice)
             lines[number] = np.delete(sheet.lines, of[hit])
     return out, lines
-
-
-def _hit(torus: Torus, marks: Laid, cutters: Laid) -> Index:
-    """Return which marks something above would cut into, some of them several times."""
-    pieces, of = torus.areas(marks.copies)
-    return of[touched(torus.stock, Laid(pieces, marks.sheet[of]), cutters)]
 
 
 def _bodies(lines: Geometries, reach: float) -> Geometries:

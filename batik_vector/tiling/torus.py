@@ -128,6 +128,17 @@ def translates(
     return which, np.column_stack([i * ax + j * bx, i * ay + j * by])
 
 
+def reduced(points: Steps, lattice: Lattice) -> Steps:
+    """Return the translates of points, shape (n, 2), that lie in the cell at the origin."""
+    (ax, ay), (bx, by) = lattice
+    x, y = points.T
+    if bx == 0:
+        x, y = x % ax, y - x // ax * ay
+        return np.column_stack([x, y % by])
+    x, y = x - y // by * bx, y % by
+    return np.column_stack([x % ax, y])
+
+
 def _ranges(
     major: tuple[NDArray[Any], NDArray[Any]],
     minor: tuple[NDArray[Any], NDArray[Any]],

@@ -88,6 +88,9 @@ def counted(monkeypatch: pytest.MonkeyPatch, name: str) -> list[int]:
     return seen
 
 
+PLANE = ((10**8, 0), (0, 10**8))
+"""A lattice so wide that nothing meets its own repeat."""
+
 PAIR = [(0, 0), (5_000, 1_000)]
 FAR = [(x * 40_000, y * 30_000) for x in range(20) for y in range(10)]
 
@@ -114,6 +117,7 @@ def test_marks_that_lie_alike_under_their_cutters_are_cut_once(monkeypatch: pyte
         stock,
         Laid(beneath, np.zeros(len(beneath), np.intp)),
         Laid(above, np.ones(len(above), np.intp)),
+        PLANE,
     )
     assert cuts == [len(LEAF.exterior.coords)]
     expected = LEAF.difference(shapely.union_all(placed(FLOWER, *PAIR))).area * len(FAR)
@@ -140,8 +144,8 @@ def test_cutting_leaves_what_a_plain_difference_leaves(
         )
         for part in (beneath, above)
     )
-    hit = touched(stock, marks, cutters)
-    left = cut(stock, marks, cutters)
+    hit = touched(stock, marks, cutters, PLANE)
+    left = cut(stock, marks, cutters, PLANE)
     whole, away = stock.geometries(marks.copies), stock.geometries(cutters.copies)
     for sheet in range(4):
         expected = [
@@ -175,6 +179,23 @@ def test_nothing_at_all_is_no_trouble() -> None:
     stock = Stock()
     none = stock.taken_up(np.empty(0, dtype=object))
     laid = Laid(none, np.empty(0, np.intp))
-    assert len(cut(stock, laid, laid).sheet) == 0
+    assert len(cut(stock, laid, laid, PLANE).sheet) == 0
     assert len(weld(stock, none)[0]) == 0
     assert len(stock.in_mm(Copies(none.kind, none.shift))) == 0
+
+
+@pytest.mark.parametrize("lattice", [((20_000, 0), (0, 16_000)), ((20_000, 8_000), (0, 16_000))])
+@pytest.mark.parametrize("away", [0, 1, -3])
+def test_a_mark_is_cut_by_the_repeats_of_its_cutters(
+    lattice: tuple[tuple[int, int], tuple[int, int]], away: int
+) -> None:
+    stock = Stock()
+    (ax, ay), (_, by) = lattice
+    beneath = Laid(stock.taken_up(placed(LEAF, (15_000, 13_000))), np.zeros(1, np.intp))
+    place = (17_000 + away * ax, 14_000 + away * ay - 2 * by)
+    above = Laid(stock.taken_up(placed(FLOWER, place)), np.ones(1, np.intp))
+    left = cut(stock, beneath, above, lattice)
+    repeats = [(place[0] + i * ax, place[1] + i * ay + j * by) for i in range(-6, 7) for j in range(-6, 7)]
+    expected = placed(LEAF, (15_000, 13_000))[0].difference(shapely.union_all(placed(FLOWER, *repeats)))
+    assert shapely.area(stock.geometries(left.copies)).sum() == pytest.approx(expected.area, rel=1e-3)
+    assert touched(stock, beneath, above, lattice).all()
