@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 import shapely
@@ -31,8 +31,14 @@ from batik_vector.values import frozen
 if TYPE_CHECKING:
     from batik_vector.tiling.toss import Tossed
 
+KEPT_PLACEMENTS, KEPT_VERTICES = 32, 50_000
+"""How many placements are remembered, and how large they may be."""
+
 COARSE = 2e-3
 """Tolerance of the first drawing, in motif units: enough to measure it and to foretell its size."""
+
+RUNGS = (0.5, 0.545, 0.595, 0.648, 0.707, 0.771, 0.841, 0.917)
+"""Eight tolerances in each doubling: a twelfth finer than asked at most, with a 25th more vertices."""
 
 GRID_SHARE = 1.5 * GRID_MM
 """What is kept of the tolerance for moves onto the grid: 0.71 steps of a vertex, and as much of a copy."""
@@ -75,18 +81,50 @@ def place(
     """
     if isinstance(placement.layout, Toss | Stripes):
         return _ground(placement, recipe, unit, inks, limit, orbit, before)
+    motif = _known(recipe.motif, placement.motifs[0], "motif")
+    key = placement, motif, unit, tuple(inks.values()), recipe.tolerance, orbit
+    if (kept := _kept.get(key)) is None or kept.foretold > limit:
+        kept = _Kept(*_drawn(placement, motif, recipe.tolerance, unit, inks, limit, orbit))
+        if kept.placed.vertices <= KEPT_VERTICES:
+            _kept[key] = kept
+            while len(_kept) > KEPT_PLACEMENTS:
+                del _kept[next(iter(_kept))]
+    return kept.placed
+
+
+class _Kept(NamedTuple):
+    """A placement that was drawn, and how many vertices it was expected to have."""
+
+    foretold: int
+    placed: Placed
+
+
+_kept: dict[tuple[object, ...], _Kept] = {}
+"""Who turns one knob need not wait for what hangs on others. The oldest go first."""
+
+
+def _drawn(
+    placement: Placement,
+    motif: Motif,
+    fineness: float,
+    unit: Cell,
+    inks: Mapping[str, Ink],
+    limit: int,
+    orbit: Orbit,
+) -> tuple[int, Placed]:
+    """Draw what a placement sets out; return how many vertices were expected with it."""
     layout, cell = placement.layout, (unit.width / orbit.base.a, unit.height / orbit.base.d)
-    motif, times = _known(recipe.motif, placement.motifs[0], "motif"), len(orbit.operations)
-    finest = max(recipe.tolerance - GRID_SHARE, recipe.tolerance / 2) / max(orbit.base.stretch, 1.0)
+    times = len(orbit.operations)
+    finest = max(fineness - GRID_SHARE, fineness / 2) / max(orbit.base.stretch, 1.0)
     with blame("layout"):
         images = layout.images(_in_units(cell, placement.scale or 1.0))
     rough = draw(motif, _coarse(images, finest, placement.scale))
-    _refuse_past(limit, rough, images, times)
+    foretold = _refuse_past(limit, rough, images, times)
     with blame("layout"):
         scale = placement.scale or _scale(placement, rough, images)
         if not (placement.scale or layout.spreads):
             images = layout.images(_in_units(cell, scale))
-    _refuse_past(limit, rough, images, times, COARSE * scale / recipe.tolerance)
+    foretold = max(foretold, _refuse_past(limit, rough, images, times, COARSE * scale / fineness))
     with blame("layout"):
         figures, copies = _set_out(motif, images, finest / scale)
     if placement.width and layout.spreads:
@@ -99,7 +137,7 @@ def place(
         laid = _mirrored(laid, orbit)
     elif not orbit.is_trivial:
         laid = replace(laid, maps=orbit.images(laid.maps, _marks_of(figures), finest / scale))
-    return _placed({placement.motifs[0]: laid}, placement, inks, recipe.tolerance)
+    return foretold, _placed({placement.motifs[0]: laid}, placement, inks, fineness)
 
 
 def _in_units(cell: tuple[float, float], scale: float) -> tuple[float, float]:
@@ -110,7 +148,7 @@ def _coarse(images: Affines | Bend, finest: float, scale: float | None) -> float
     """Return the tolerance of the first drawing: the last one's where that is known, and coarser still."""
     if scale is None or isinstance(images, Bend):
         return COARSE
-    return max(COARSE, finest / scale / float(images.stretches.max()))
+    return max(COARSE, _rung(finest / scale / float(images.stretches.max())))
 
 
 def _mirrored(laid: Laid, orbit: Orbit) -> Laid:
@@ -182,8 +220,8 @@ def _multiplied(laid: Laid, orbit: Orbit) -> Laid:
 
 def _refuse_past(
     limit: int, rough: list[Figure], images: Affines | Bend | int, times: int, finer: float = 1.0
-) -> None:
-    """Raise where ``times`` drawings, ``finer`` times as fine as the rough one, would pass the limit."""
+) -> int:
+    """Return the vertices of ``times`` drawings, ``finer`` times as fine as the rough; raise past a limit."""
     if isinstance(images, int):
         count = images
     else:
@@ -194,6 +232,7 @@ def _refuse_past(
             f"about {_human(vertices)} vertices, past the limit of {limit:,}: lower the level or the counts, "
             "allow a larger tolerance, or raise the recipe's limit"
         )
+    return vertices
 
 
 def _known(catalogue: Mapping[str, Motif], name: str, what: str) -> Motif:
@@ -244,8 +283,14 @@ def _set_out(motif: Motif, images: Affines | Bend, tolerance: float) -> tuple[li
             return np.asarray(tolerance * SOURCE_SHARE / np.maximum(system.stretch(first.at(points)), 1e-6))
 
         return _bent(_shown(draw(motif, source)), images, tolerance * (1 - SOURCE_SHARE)), ONE
-    figures = _shown(draw(motif, tolerance / float(images.stretches.max())))
+    figures = _shown(draw(motif, _rung(tolerance / float(images.stretches.max()))))
     return figures, distinct(images, _marks_of(figures), tolerance)
+
+
+def _rung(tolerance: float) -> float:
+    """Return the next finer of a ladder of tolerances, so that a small change of size need not draw again."""
+    share, power = math.frexp(tolerance)
+    return math.ldexp(max(rung for rung in RUNGS if rung <= share), power)
 
 
 def _marks_of(figures: list[Figure]) -> list[Geometries]:
