@@ -107,8 +107,8 @@ def _away(
 
 def _hanging_together(sheet: Index, cutter: Index, mark: Index, count: int) -> Index:
     """Return for each mark the first that shared cutters connect it with, within its sheet."""
-    _, node = np.unique(np.column_stack([sheet, cutter]), axis=0, return_inverse=True)
-    pairs = np.column_stack([mark, count + node.ravel()])
+    _, node = alike(np.column_stack([sheet, cutter]))
+    pairs = np.column_stack([mark, count + node])
     return components(count + len(pairs), pairs)[:count]
 
 

@@ -80,12 +80,12 @@ class Group:
             np.tile(mark, len(self.numbers)),
         )
 
-    def images(self, lines: Geometries) -> Images:
-        """Return the copies of lines in mm, each coordinate the float k / 1000."""
-        outlines, points, mark = self._on_grid(lines)
+    def images(self, marks: Geometries) -> Images:
+        """Return the copies of marks in mm, each coordinate the float k / 1000."""
+        outlines, points, mark = self._on_grid(marks)
         # + 0.0, lest a turn leave a zero with a sign.
         places = (self.carriers.at(points) + 0.0) / STEPS_PER_MM
-        return _numbered(outlines.images(places), self.numbers, mark)
+        return _numbered(outlines.images(places, self.carriers.determinants < 0), self.numbers, mark)
 
     def _on_grid(self, marks: Geometries) -> tuple[Ragged, Array, Indices]:
         """Return marks turned and rounded: as arrays, with their points, and which mark each is of."""

@@ -31,6 +31,9 @@ MAX_VERTICES = 50_000_000
 MAX_REPEATS = 5_000
 """Repeats that one mark may reach over: all its translates meet, and welding them costs their square."""
 
+FEW_REPEATS = 16
+"""A mark that reaches over more repeats than these meets everything so often that it is cut up first."""
+
 PHASES = 6
 """How many positions of the seam are tried before a tile is given up."""
 
@@ -39,9 +42,18 @@ PHASE_STEP = (13, 17)
 
 
 class Cut(NamedTuple):
-    """What upper sheets leave of lower ones: areas not yet wrapped, and in mm the lines of each sheet."""
+    """What upper sheets leave of lower ones.
+
+    Attributes:
+        areas: cut, not yet wrapped.
+        late: those that reach over many repeats, to be cut by ``cutters`` when they lie in the cell.
+        cutters: none of which reaches over many repeats.
+        lines: of each sheet, in mm, not yet cut.
+    """
 
     areas: Laid
+    late: Laid
+    cutters: Laid
     lines: list[Geometries]
 
 
@@ -101,9 +113,14 @@ def _refuse_too_many(pile: Pile, cell: Cell, lattice: Lattice) -> None:
         )
 
 
-def _assemble_on(torus: Torus, pile: Pile, cut: Cut, inks: Sequence[Ink]) -> tuple[Layer, ...] | None:
+def _assemble_on(torus: Torus, pile: Pile, left: Cut, inks: Sequence[Ink]) -> tuple[Layer, ...] | None:
     """Do the work of :func:`assemble` at one place of the seam; None where it falls badly."""
-    drawn, lines = _wrapped(torus, cut.areas), cut.lines
+    drawn, lines = _wrapped(torus, left.areas), left.lines
+    if len(left.late.sheet):
+        cutters = Laid(left.cutters.copies.moved(torus.phase), left.cutters.sheet)
+        late = cut(torus.stock, _wrapped(torus, left.late), cutters, torus.lattice)
+        drawn = joined([drawn, late])
+        drawn = drawn.taken(np.argsort(drawn.sheet, kind="stable"))
     strokes = [
         (sheet.ink.name, _strokes(torus, pile, number, lines[number]))
         for number, sheet in enumerate(pile.sheets)
@@ -140,9 +157,28 @@ def _together(parts: Sequence[Lines]) -> Lines:
 
 def _cut(pile: Pile, lattice: Lattice) -> Cut:
     """Return what sheets leave of one another."""
-    cutters = pile.cutters()
+    cutters = _handy(pile.stock, pile.cutters(), lattice)
     out, lines = _left_out(pile, cutters, lattice)
-    return Cut(cut(pile.stock, pile.drawn.taken(~out), cutters, lattice), lines)
+    left = pile.drawn.taken(~out)
+    late = _reach(pile.stock, left, lattice) > FEW_REPEATS
+    return Cut(cut(pile.stock, left.taken(~late), cutters, lattice), left.taken(late), cutters, lines)
+
+
+def _reach(stock: Stock, laid: Laid, lattice: Lattice) -> NDArray[np.float64]:
+    """Return over how many repeats each copy reaches, about."""
+    x0, y0, x1, y1 = stock.bounds(laid.copies).T
+    return np.asarray(((x1 - x0) / lattice[0][0] + 1) * ((y1 - y0) / lattice[1][1] + 1))
+
+
+def _handy(stock: Stock, laid: Laid, lattice: Lattice) -> Laid:
+    """Return areas of which none reaches over many repeats: others are cut up and welded in one cell."""
+    large = _reach(stock, laid, lattice) > FEW_REPEATS
+    if not large.any():
+        return laid
+    cell = Torus(stock, Cell(lattice[0][0], lattice[1][1]), lattice, np.zeros(2, np.int64))
+    pieces = _wrapped(cell, laid.taken(large))
+    copies, first = weld(stock, pieces.copies, pieces.sheet)
+    return joined([laid.taken(~large), Laid(copies, pieces.sheet[first])])
 
 
 def _left_out(pile: Pile, cutters: Laid, lattice: Lattice) -> tuple[NDArray[np.bool_], list[Geometries]]:
@@ -158,12 +194,23 @@ def _left_out(pile: Pile, cutters: Laid, lattice: Lattice) -> tuple[NDArray[np.b
             continue
         mine = np.flatnonzero(pile.drawn.sheet == number)
         # Growing divides no shape, so that each copy has one body.
-        out[mine] = touched(stock, pile.grown(pile.drawn.taken(mine), sheet.margin), cutters, lattice)
+        out[mine] = _hit(stock, pile.grown(pile.drawn.taken(mine), sheet.margin), cutters, lattice)
         if len(sheet.lines):
             copies, of = stock.settled(_bodies(sheet.lines, sheet.ink.width / 2))
-            hit = touched(stock, Laid(copies, np.full(len(copies), number)), cutters, lattice)
+            hit = _hit(stock, Laid(copies, np.full(len(copies), number)), cutters, lattice)
             lines[number] = np.delete(sheet.lines, of[hit])
     return out, lines
+
+
+def _hit(stock: Stock, marks: Laid, cutters: Laid, lattice: Lattice) -> NDArray[np.bool_]:
+    """Return which marks something above would cut into; where one is large, each is asked piece by piece."""
+    if (_reach(stock, marks, lattice) <= FEW_REPEATS).all():
+        return touched(stock, marks, cutters, lattice)
+    cell = Torus(stock, Cell(lattice[0][0], lattice[1][1]), lattice, np.zeros(2, np.int64))
+    pieces, of = cell.areas(marks.copies)
+    found = np.zeros(len(marks.sheet), bool)
+    found[of[touched(stock, Laid(pieces, marks.sheet[of]), cutters, lattice)]] = True
+    return found
 
 
 def _bodies(lines: Geometries, reach: float) -> Geometries:

@@ -125,7 +125,7 @@ class Torus:
             new = self.stock.taken_up(mended)
             areas = Copies(areas.kind.copy(), areas.shift.copy())
             areas.kind[at], areas.shift[at] = new.kind, new.shift
-        return areas if shapely.is_valid(self.stock.used(areas)[0]).all() else None
+        return areas
 
     def _torn(self, breaks: NDArray[np.int64]) -> list[tuple[int, int, int]]:
         """Return what of breaks, rows of (axis, from, to), no mark's own border along the seam explains."""

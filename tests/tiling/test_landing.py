@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from batik_vector.geometry.maps.affine import Affine
 from batik_vector.geometry.maps.affines import Affines, turns
 from batik_vector.geometry.sampling import Array, Geometries
+from batik_vector.tiling.congruent import polygons
 from batik_vector.tiling.landing import Spread, joined, spreads
 from batik_vector.units import STEPS_PER_MM
 
@@ -124,3 +125,15 @@ def test_every_copy_comes_in_its_place_and_order(poses: list[tuple[float, float,
     )
     for mine, true in zip(landed(maps, PEAR), exact(maps, PEAR), strict=True):
         assert np.abs(mine - true).max() < 1.001
+
+
+def test_copies_on_the_grid_are_the_images() -> None:
+    grid = turns([0, 90, 180, 270]).after(Affines.of([Affine(), Affine.mirror()]))
+    maps = Affine.translation((160.0003, 71.0)) @ grid @ Affine.translation((80, 33)) @ Affine.scale(30.0)
+    (found,) = spreads(maps, lambda: [PEAR])
+    marks = found.first.apply(PEAR)
+    copies, images = found.landed(marks), found.images(marks)
+    assert copies is not None
+    assert len(copies.areas.shapes) <= 8
+    own = polygons(copies.areas)[np.argsort(copies.copy)]
+    assert shapely.equals(own, images.geometries[np.argsort(images.copy)]).all()
