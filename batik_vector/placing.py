@@ -40,6 +40,9 @@ COARSE = 2e-3
 RUNGS = (0.5, 0.545, 0.595, 0.648, 0.707, 0.771, 0.841, 0.917)
 """Eight tolerances in each doubling: a twelfth finer than asked at most, with a 25th more vertices."""
 
+FEW_CONTOURS = 100
+"""Contours of a motif that may be drawn a hundred times as fine before the drawing's size is known."""
+
 GRID_SHARE = 1.5 * GRID_MM
 """What is kept of the tolerance for moves onto the grid: 0.71 steps of a vertex, and as much of a copy."""
 
@@ -118,13 +121,14 @@ def _drawn(
     finest = max(fineness - GRID_SHARE, fineness / 2) / max(orbit.base.stretch, 1.0)
     with blame("layout"):
         images = layout.images(_in_units(cell, placement.scale or 1.0))
-    rough = draw(motif, _coarse(images, finest, placement.scale))
+    coarse = _coarse(motif, images, finest, placement.scale)
+    rough = draw(motif, coarse)
     foretold = _refuse_past(limit, rough, images, times)
     with blame("layout"):
         scale = placement.scale or _scale(placement, rough, images)
         if not (placement.scale or layout.spreads):
             images = layout.images(_in_units(cell, scale))
-    foretold = max(foretold, _refuse_past(limit, rough, images, times, COARSE * scale / fineness))
+    foretold = max(foretold, _refuse_past(limit, rough, images, times, coarse * scale / fineness))
     with blame("layout"):
         figures, copies = _set_out(motif, images, finest / scale)
     if placement.width and layout.spreads:
@@ -144,11 +148,13 @@ def _in_units(cell: tuple[float, float], scale: float) -> tuple[float, float]:
     return cell[0] / scale, cell[1] / scale
 
 
-def _coarse(images: Affines | Bend, finest: float, scale: float | None) -> float:
-    """Return the tolerance of the first drawing: the last one's where that is known, and coarser still."""
+def _coarse(motif: Motif, images: Affines | Bend, finest: float, scale: float | None) -> float:
+    """Return the tolerance of the first drawing: the last one's, if that is known and needs few vertices."""
     if scale is None or isinstance(images, Bend):
         return COARSE
-    return max(COARSE, _rung(finest / scale / float(images.stretches.max())))
+    contours = sum(part.count * part.contours for part in motif.parts())
+    least = COARSE if contours > FEW_CONTOURS else COARSE / 100
+    return max(least, _rung(finest / scale / float(images.stretches.max())))
 
 
 def _mirrored(laid: Laid, orbit: Orbit) -> Laid:

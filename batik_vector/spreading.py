@@ -96,6 +96,7 @@ def _areas(groups: Sequence[Spread], parts: Sequence[list[Geometries]]) -> list[
     if len(on_grid) < len(found):
         return [*_lines(groups, parts)]
     areas, copy, mark = landed(on_grid)
+    areas = areas.reduced()
     return [areas.taken(which) for which in _parted(count, copy, mark)]
 
 

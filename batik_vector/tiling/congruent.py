@@ -96,12 +96,14 @@ def _same_points(a: Steps, b: Steps) -> NDArray[np.bool_]:
     return np.asarray(same)
 
 
-@frozen(eq=False)
 class Copies:
     """Copies of a stock's shapes: ``kind`` says of which, shape (n,), ``shift`` where to, shape (n, 2)."""
 
-    kind: Index
-    shift: Steps
+    # Made by the hundred in every compilation, and hence no value of the costlier sort.
+    __slots__ = ("kind", "shift")
+
+    def __init__(self, kind: Index, shift: Steps) -> None:
+        self.kind, self.shift = kind, shift
 
     def __len__(self) -> int:
         return len(self.kind)
@@ -129,6 +131,14 @@ class Repeated:
     def taken(self, which: Index) -> Repeated:
         """Return some of the copies."""
         return Repeated(self.shapes, self.which[which], self.shift[which])
+
+    def reduced(self) -> Repeated:
+        """Return the same copies, of shapes that are all different."""
+        if not len(self.shapes):
+            return self
+        heads, number, corner = _different(of_polygons(self.shapes))
+        away = corner - corner[heads][number]
+        return Repeated(self.shapes[heads], number[self.which], self.shift + away[self.which])
 
 
 Areas: TypeAlias = Geometries | Repeated
@@ -189,8 +199,7 @@ class Stock:
         if not len(areas):
             return together([]), owner
         steps, torn = _without_repeats(of_polygons(areas, STEPS_PER_MM))
-        corner = steps.bounds()[:, :2]
-        heads, number = _different(steps, corner)
+        heads, number, corner = _different(steps)
         shapes = to_polygons(steps.taken(heads, -corner[heads]))
         bad = torn[heads] | ~shapely.is_valid(shapes)
         if bad.any():
@@ -203,15 +212,13 @@ class Stock:
         """Take up valid polygons in grid steps, those that are alike as copies of one shape."""
         if not len(areas):
             return together([])
-        steps = of_polygons(areas)
-        corner = steps.bounds()[:, :2]
-        heads, number = _different(steps, corner)
+        heads, number, corner = _different(of_polygons(areas))
         return self.add(areas[heads]).taken(number).moved(corner - corner[heads][number])
 
     def copies(self, parts: Sequence[Repeated]) -> list[Copies]:
-        """Take up areas that are copies already; an array of shapes that several share is looked at once."""
+        """Take up areas that are copies already; an array of shapes that several share is taken up once."""
         arrays = {id(part.shapes): part.shapes for part in parts}
-        shapes = self.taken_up(np.concatenate([np.empty(0, dtype=object), *arrays.values()]))
+        shapes = self.add(np.concatenate([np.empty(0, dtype=object), *arrays.values()]))
         first = dict(zip(arrays, np.cumsum([0, *map(len, arrays.values())]).tolist(), strict=False))
         return [shapes.taken(first[id(p.shapes)] + p.which).moved(p.shift) for p in parts]
 
@@ -263,7 +270,7 @@ class Stock:
         """Return the pairs, one of ``a`` and one of ``b``, whose bounds meet."""
         if not len(a) or not len(b):
             return np.empty(0, np.intp), np.empty(0, np.intp)
-        mine, other = shapely.STRtree(_boxes(self.bounds(b))).query(_boxes(self.bounds(a)))
+        mine, other = shapely.STRtree(_diagonals(self.bounds(b))).query(_diagonals(self.bounds(a)))
         return mine, other
 
     def holds(self, predicate: Predicate, a: Copies, b: Copies) -> NDArray[np.bool_]:
@@ -275,21 +282,23 @@ class Stock:
         return np.asarray(predicate(first, self.geometries(second))[number])
 
 
-def _boxes(bounds: Steps) -> Geometries:
-    return np.asarray(shapely.box(*bounds.T), dtype=object)
+def _diagonals(bounds: Steps) -> Geometries:
+    """Return lines that have given bounds: sooner made than boxes."""
+    return np.asarray(shapely.linestrings(bounds.reshape(-1, 2, 2).astype(np.float64)), dtype=object)
 
 
-def _different(steps: Outlines, corner: Steps) -> tuple[Index, Index]:
-    """Return the marks that are different from all before them, and for each mark which of those it is.
+def _different(steps: Outlines) -> tuple[Index, Index, Steps]:
+    """Return marks that equal none before them, which of those each mark is, and each one's lower left corner.
 
     Marks are alike when one is the other moved, wherever their rings begin. Raw outlines are compared first,
     so that only the different ones need their rings turned.
     """
+    corner = steps.bounds()[:, :2]
     steps = replace(steps, points=steps.points - np.repeat(corner, steps.sizes(), axis=0))
     heads, number = alike(_rows(steps), _spans(steps))
     turned = _begun_low(steps.taken(heads))
     chosen, again = alike(_rows(turned), _spans(turned))
-    return heads[chosen], again[number]
+    return heads[chosen], again[number], corner
 
 
 def _spans(steps: Outlines) -> Offsets:

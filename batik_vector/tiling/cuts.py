@@ -85,11 +85,13 @@ def _away(
 ) -> tuple[Index, Geometries, Index, Steps]:
     """Return what is taken away: (which marks are cut, unions, which of these from each mark, and where).
 
-    A mark needs the union of the cutters that touch it. Where marks of a sheet share cutters it may be
+    A mark needs the union of the cutters that touch it. Where marks of a level share cutters it may be
     less work to unite all that hang together once, for all of them: what has fewer vertices is done.
     """
     which, number = np.unique(mark, return_inverse=True)
-    label = _hanging_together(marks.sheet[mark], cutter, number.ravel(), len(which))
+    # Marks of two sheets with no cutters between may share.
+    level = np.searchsorted(np.unique(cutters.sheet, return_index=True)[0], marks.sheet[mark], side="right")
+    label = _hanging_together(level, cutter, number.ravel(), len(which))
     own = _Sets.of(stock, cutters.copies, number.ravel(), cutter)
     shared = _Sets.of(stock, cutters.copies, label[number.ravel()], cutter)
     group = np.searchsorted(shared.owner, label)
@@ -105,9 +107,9 @@ def _away(
     return which, np.concatenate(parts), row.ravel(), corner
 
 
-def _hanging_together(sheet: Index, cutter: Index, mark: Index, count: int) -> Index:
-    """Return for each mark the first that shared cutters connect it with, within its sheet."""
-    _, node = alike(np.column_stack([sheet, cutter]))
+def _hanging_together(level: Index, cutter: Index, mark: Index, count: int) -> Index:
+    """Return for each mark the first that shared cutters connect it with, within its level."""
+    _, node = alike(np.column_stack([level, cutter]))
     pairs = np.column_stack([mark, count + node])
     return components(count + len(pairs), pairs)[:count]
 

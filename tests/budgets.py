@@ -1,0 +1,165 @@
+"""Work that is counted: vertices, calls, elements, lines of our own code; no clock is looked at.
+
+    with counted() as work:
+        compile_recipe(recipe)
+    BUDGETS.hold("vertices united", work.vertices("union_all"))
+
+Counts are the same on every machine, and all but the same with every version of the libraries.
+"""
+
+from __future__ import annotations
+
+import collections
+import contextlib
+import functools
+import sys
+import tracemalloc
+import warnings
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import shapely
+
+PACKAGE = str(Path(__file__).resolve().parents[1] / "batik_vector")
+ROOM = 1.3
+"""What is allowed of what was measured: versions of GEOS and NumPy differ a little, a regression by more."""
+LOOSE = 0.7
+"""Share of what was measured below which a budget no longer guards what was gained."""
+
+Place = tuple[Any, str]
+"""A module or class, and the name of a function in it."""
+
+
+class LooseBudgetWarning(UserWarning):
+    """Less is spent than the table says: the gain is to be written down, lest it be lost again."""
+
+
+class Budgets:
+    """A table of budgets: kinds of work, and for each what was spent when the row was written.
+
+    A third more is allowed, and of what is never to be done, nothing.
+    """
+
+    def __init__(self, rows: Mapping[str, float]) -> None:
+        self.rows = rows
+
+    def hold(self, what: str, spent: float) -> None:
+        """Fail where more is spent than a row allows; warn where it is so much less that the row is idle."""
+        measured = self.rows[what]
+        allowed = measured * ROOM
+        assert spent <= allowed, (
+            f"{what}: {spent:,.6g} spent, {allowed:,.6g} allowed, {measured:,.6g} when the row was written. "
+            "Something is done twice or too early; if it must be, the row may be raised, with the reason."
+        )
+        if spent < measured * LOOSE:
+            words = f"{what}: {spent:,.6g} spent, the row says {measured:,.6g}; lower it to keep the gain"
+            warnings.warn(LooseBudgetWarning(words), stacklevel=2)
+
+
+class Work:
+    """What was counted: calls of each function, and what these were given, by any measure."""
+
+    def __init__(self) -> None:
+        self._calls = collections.Counter[str]()
+        self._given = collections.Counter[str]()
+
+    def add(self, name: str, given: int) -> None:
+        """Count one call."""
+        self._calls[name] += 1
+        self._given[name] += given
+
+    def calls(self, *names: str) -> int:
+        """Return how often some functions were called; all, where none is named."""
+        return sum(self._calls[name] for name in names or self._calls)
+
+    def given(self, *names: str) -> int:
+        """Return what some functions were given; all, where none is named."""
+        return sum(self._given[name] for name in names or self._given)
+
+
+def _functions() -> Iterator[Place]:
+    for name, value in vars(shapely).items():
+        if callable(value) and not isinstance(value, type) and not name.startswith("_"):
+            yield shapely, name
+    yield from ((shapely.STRtree, name) for name in ("__init__", "query", "query_nearest"))
+
+
+SHAPELY = tuple(_functions())
+"""All of shapely that takes geometries in bulk. What is a tree's is called "query" and so on."""
+
+_is_geometry, _sizes = shapely.is_geometry, shapely.get_num_coordinates
+
+
+def vertices(*given: Any) -> int:
+    """Return how many vertices the geometries among some arguments have."""
+    found = 0
+    for each in given:
+        if isinstance(each, list | tuple | shapely.Geometry):
+            each = np.asarray(each, dtype=object)
+        if isinstance(each, np.ndarray) and each.dtype == object:
+            found += int(_sizes(each[_is_geometry(each)]).sum())
+    return found
+
+
+def elements(*given: Any) -> int:
+    """Return how many elements the arrays among some arguments have, and among lists of arrays."""
+    arrays = [part for each in given for part in (each if isinstance(each, list | tuple) else [each])]
+    return sum(each.size for each in arrays if isinstance(each, np.ndarray))
+
+
+def nothing(*given: Any) -> int:
+    """Measure nothing: where calls are all that is asked for."""
+    return 0
+
+
+@contextlib.contextmanager
+def counted(places: Iterable[Place] = SHAPELY, measure: Callable[..., int] = vertices) -> Iterator[Work]:
+    """Count the calls of some functions, and measure what each is given; nested calls count too."""
+    work = Work()
+
+    def counting(name: str, real: Callable[..., Any]) -> Callable[..., Any]:
+        @functools.wraps(real)
+        def call(*args: Any, **named: Any) -> Any:
+            work.add(name, measure(*args, *named.values()))
+            return real(*args, **named)
+
+        return call
+
+    with pytest.MonkeyPatch.context() as patch:
+        for owner, name in places:
+            patch.setattr(owner, name, counting(name, getattr(owner, name)))
+        yield work
+
+
+def lines_run(call: Callable[[], object]) -> int:
+    """Return how many lines of the package's own code a call runs: a loop shows, bulk operations do not."""
+    counted = 0
+
+    def local(frame: Any, event: str, argument: Any) -> Any:
+        nonlocal counted
+        counted += event == "line"
+        return local
+
+    def begun(frame: Any, event: str, argument: Any) -> Any:
+        return local if frame.f_code.co_filename.startswith(PACKAGE) else None
+
+    before = sys.gettrace()
+    sys.settrace(begun)
+    try:
+        call()
+    finally:
+        sys.settrace(before)
+    return counted
+
+
+def peak_bytes(call: Callable[[], object]) -> int:
+    """Return how many bytes Python and NumPy hold at most during a call; what GEOS holds is not seen."""
+    tracemalloc.start()
+    try:
+        call()
+        return tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
