@@ -288,7 +288,7 @@ def _diagonals(bounds: Steps) -> Geometries:
 
 
 def _different(steps: Outlines) -> tuple[Index, Index, Steps]:
-    """Return marks that equal none before them, which of those each mark is, and each one's lower left corner.
+    """Return marks that equal none before them, which of those each mark is, and its lower left corner.
 
     Marks are alike when one is the other moved, wherever their rings begin. Raw outlines are compared first,
     so that only the different ones need their rings turned.
