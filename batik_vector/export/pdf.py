@@ -16,7 +16,6 @@ import io
 import math
 import zlib
 from typing import BinaryIO
-from xml.sax.saxutils import escape
 
 import numpy as np
 
@@ -397,4 +396,4 @@ def _xmp(page: Page) -> bytes:
 
 def _escaped(words: str) -> str:
     """Return text for an XML element; a carriage return would be read as a line feed."""
-    return escape(words, {"\r": "&#13;"})
+    return words.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;").replace("\r", "&#13;")
