@@ -345,4 +345,6 @@ def _bands(nested: list[Geometries]) -> Geometries:
     total = shapely.union_all(nested[0])
     for inner in nested[1:]:
         total = shapely.symmetric_difference(total, shapely.union_all(inner))
-    return oriented(shapely.get_parts(total))
+    # Where bands meet in a point a hair of line may be left.
+    parts = shapely.get_parts(total)
+    return oriented(parts[shapely.get_type_id(parts) == shapely.GeometryType.POLYGON])

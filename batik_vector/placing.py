@@ -86,13 +86,24 @@ def place(
         return _ground(placement, recipe, unit, inks, limit, orbit, before)
     motif = _known(recipe.motif, placement.motifs[0], "motif")
     key = placement, motif, unit, tuple(inks.values()), recipe.tolerance, orbit
-    if (kept := _kept.get(key)) is None or kept.foretold > limit:
+    # What is built in Python may hold lists, and is then drawn anew each time.
+    keeps = _hashable(key)
+    kept = _kept.get(key) if keeps else None
+    if kept is None or kept.foretold > limit:
         kept = _Kept(*_drawn(placement, motif, recipe.tolerance, unit, inks, limit, orbit))
-        if kept.placed.vertices <= KEPT_VERTICES:
+        if keeps and kept.placed.vertices <= KEPT_VERTICES:
             _kept[key] = kept
             while len(_kept) > KEPT_PLACEMENTS:
                 del _kept[next(iter(_kept))]
     return kept.placed
+
+
+def _hashable(key: tuple[object, ...]) -> bool:
+    try:
+        hash(key)
+    except TypeError:
+        return False
+    return True
 
 
 class _Kept(NamedTuple):

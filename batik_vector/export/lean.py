@@ -16,22 +16,23 @@ from importlib import import_module
 from types import ModuleType
 from typing import Any
 
+_importing = threading.Lock()
 _LATER = ("urllib.request", "svgwrite.data.svgparser")
 """Modules from which svgwrite takes functions alone."""
 
 
 def svgwrite() -> Any:
     """Return svgwrite, imported where it is not yet."""
-    if "svgwrite" not in sys.modules:
-        later = _LATER if threading.active_count() == 1 else ()
+    with _importing:
+        alone = "svgwrite" not in sys.modules and threading.active_count() == 1
+        later = _LATER if alone else ()
         waiting = {name: _stand_in(name) for name in later if name not in sys.modules}
         sys.modules.update(waiting)
         try:
-            import_module("svgwrite")
+            return import_module("svgwrite")
         finally:
             for name in waiting:
                 del sys.modules[name]
-    return sys.modules["svgwrite"]
 
 
 def _stand_in(name: str) -> ModuleType:

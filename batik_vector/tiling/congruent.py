@@ -275,11 +275,15 @@ class Stock:
 
     def holds(self, predicate: Predicate, a: Copies, b: Copies) -> NDArray[np.bool_]:
         """Return whether a predicate holds of a[i] and b[i]: asked once for each configuration."""
-        rows = np.column_stack([a.kind, b.kind, b.shift - a.shift])
-        heads, number = alike(rows)
-        first, second = self.shapes[a.kind[heads]], b.taken(heads).moved(-a.shift[heads])
+        heads, number = alike(np.column_stack([a.kind, b.kind, b.shift - a.shift]))
+        first, second = self._each(a.taken(heads)), self._each(b.taken(heads))
         shapely.prepare(first)
-        return np.asarray(predicate(first, self.geometries(second))[number])
+        return np.asarray(predicate(first, second)[number])
+
+    def _each(self, copies: Copies) -> Geometries:
+        """Return copies as polygons, those that are the same copy as one and the same."""
+        heads, number = alike(np.column_stack([copies.kind, copies.shift]))
+        return self.geometries(copies.taken(heads))[number]
 
 
 def _diagonals(bounds: Steps) -> Geometries:

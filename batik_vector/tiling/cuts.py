@@ -28,21 +28,22 @@ def cut(stock: Stock, marks: Laid, cutters: Laid, lattice: Lattice) -> Laid:
 
     Marks and cutters repeat on the lattice. Whatever meets is cut where it lies, across all seams.
     """
-    cutters, marks = _beside(stock, marks, cutters, lattice)
+    given = marks
+    cutters, marks = _beside(stock, given, cutters, lattice)
     mark, cutter = _above(stock, marks, cutters)
     met = stock.holds(shapely.intersects, marks.copies.taken(mark), cutters.copies.taken(cutter))
     mark, cutter = mark[met], cutter[met]
     if not len(mark):
-        return marks
+        return given
     which, away, number, corner = _away(stock, marks, cutters, mark, cutter)
     asked = np.column_stack([marks.copies.kind[which], number, corner - marks.copies.shift[which]])
     heads, row = alike(asked)
     left = overlay.less(stock.shapes[asked[heads, 0]], translate(away[asked[heads, 1]], asked[heads, 2:]))
-    down = stock.set_down(left, row, marks.copies.shift[which])
+    down = stock.set_down(left, row, given.copies.shift[which])
     whole = np.ones(len(marks.sheet), bool)
     whole[which] = False
     order = np.argsort(np.concatenate([np.flatnonzero(whole), which[down.each]]), kind="stable")
-    return joined([marks.taken(whole), Laid(down.copies, marks.sheet[which[down.each]])]).taken(order)
+    return joined([given.taken(whole), Laid(down.copies, marks.sheet[which[down.each]])]).taken(order)
 
 
 def touched(stock: Stock, marks: Laid, cutters: Laid, lattice: Lattice) -> NDArray[np.bool_]:
@@ -111,7 +112,7 @@ def _hanging_together(level: Index, cutter: Index, mark: Index, count: int) -> I
     """Return for each mark the first that shared cutters connect it with, within its level."""
     _, node = alike(np.column_stack([level, cutter]))
     pairs = np.column_stack([mark, count + node])
-    return components(count + len(pairs), pairs)[:count]
+    return components(int(pairs.max()) + 1, pairs)[:count]
 
 
 @frozen(eq=False)

@@ -79,7 +79,7 @@ class Pile:
         sheets: as given.
         stock: of which the copies are.
         tolerance: in mm, for the round corners of what is grown.
-        areas: of all sheets, and the shapes of those that cut with another.
+        areas: of all sheets.
         drawn: the areas of all sheets that have an ink.
     """
 
@@ -87,13 +87,14 @@ class Pile:
         self.sheets, self.stock, self.tolerance = sheets, stock, tolerance
         own = [sheet.cutter if sheet.gap is not None else _none() for sheet in sheets]
         copies, place = _taken_up(stock, [*(sheet.areas for sheet in sheets), *own])
-        self.areas = Laid(copies, place % max(len(sheets), 1))
+        every = Laid(copies, place % max(len(sheets), 1))
         has_ink = np.array([sheet.ink is not None for sheet in sheets], bool)
         cuts = np.array([sheet.gap is not None for sheet in sheets], bool)
         has_own = np.array([len(each) > 0 for each in own], bool)
         second = place >= len(sheets)
-        self.drawn = self.areas.taken(~second & has_ink[self.areas.sheet])
-        self._cutting = self.areas.taken(cuts[self.areas.sheet] & (second == has_own[self.areas.sheet]))
+        self.areas = every.taken(~second)
+        self.drawn = every.taken(~second & has_ink[every.sheet])
+        self._cutting = every.taken(cuts[every.sheet] & (second == has_own[every.sheet]))
 
     def cutters(self, above: int = -1, extra: float = 0.0) -> Laid:
         """Return what sheets above a number cut away: their shapes, grown by gap and ``extra`` (mm)."""

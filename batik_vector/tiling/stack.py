@@ -7,6 +7,7 @@ of every ink is wrapped round the cell, cut at its edges and, where its ink says
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -16,6 +17,7 @@ from numpy.typing import NDArray
 from batik_vector.artwork import Cell, Geometries, Ink, Layer, Overlap
 from batik_vector.errors import SeamError, TooLargeError
 from batik_vector.outlines import Index
+from batik_vector.tiling import overlay
 from batik_vector.tiling.congruent import Stock
 from batik_vector.tiling.cuts import cut, touched
 from batik_vector.tiling.once import drawn_once
@@ -117,6 +119,8 @@ def _assemble_on(torus: Torus, pile: Pile, left: Cut, inks: Sequence[Ink]) -> tu
     """Do the work of :func:`assemble` at one place of the seam; None where it falls badly."""
     drawn, lines = _wrapped(torus, left.areas), left.lines
     if len(left.late.sheet):
+        # What cuts them along the seam does so on purpose.
+        torus.areas(left.cutters.copies)
         cutters = Laid(left.cutters.copies.moved(torus.phase), left.cutters.sheet)
         late = cut(torus.stock, _wrapped(torus, left.late), cutters, torus.lattice)
         drawn = joined([drawn, late])
@@ -193,13 +197,21 @@ def _left_out(pile: Pile, cutters: Laid, lattice: Lattice) -> tuple[NDArray[np.b
         if not sheet.whole or sheet.ink is None or not len(cutters.sheet):
             continue
         mine = np.flatnonzero(pile.drawn.sheet == number)
-        # Growing divides no shape, so that each copy has one body.
-        out[mine] = _hit(stock, pile.grown(pile.drawn.taken(mine), sheet.margin), cutters, lattice)
+        down = stock.mapped(pile.drawn.copies.taken(mine), partial(_grown, margin=sheet.margin))
+        hit = _hit(stock, Laid(down.copies, np.full(len(down.each), number)), cutters, lattice)
+        out[mine[down.each[hit]]] = True
         if len(sheet.lines):
             copies, of = stock.settled(_bodies(sheet.lines, sheet.ink.width / 2))
             hit = _hit(stock, Laid(copies, np.full(len(copies), number)), cutters, lattice)
             lines[number] = np.delete(sheet.lines, of[hit])
     return out, lines
+
+
+def _grown(shapes: Geometries, margin: float) -> Geometries:
+    """Return shapes grown by a margin in mm."""
+    if not margin:
+        return shapes
+    return overlay.on_grid(np.asarray(shapely.buffer(shapes, margin * STEPS_PER_MM), dtype=object))
 
 
 def _hit(stock: Stock, marks: Laid, cutters: Laid, lattice: Lattice) -> NDArray[np.bool_]:

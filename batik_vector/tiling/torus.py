@@ -55,7 +55,7 @@ def to_step_grid(marks: Geometries) -> Geometries:
     sound = shapely.is_valid(snapped)
     snapped[sound] = shapely.remove_repeated_points(snapped[sound])
     if not sound.all():
-        snapped[~sound] = shapely.set_precision(shapely.make_valid(scaled[~sound]), 1.0)
+        snapped[~sound] = overlay.mended(scaled[~sound])
     return snapped
 
 

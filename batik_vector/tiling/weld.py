@@ -118,13 +118,17 @@ def _held(
     """Return for some pieces a member of their group that each holds."""
     at = shapely.point_on_surface(stock.geometries(pieces.taken(several)))
     owner = each[several]
-    counts = np.diff(ends)[owner]
-    members = order[np.repeat(ends[owner] - np.cumsum(counts) + counts, counts) + np.arange(counts.sum())]
-    asker = np.repeat(np.arange(len(several)), counts)
-    holds = np.flatnonzero(shapely.intersects(stock.geometries(copies.taken(members)), at[asker]))
+    groups = np.unique(owner, return_index=True)[0]
+    members, starts = runs(ends, groups)
+    of = np.repeat(groups, np.diff(starts))
+    tree = shapely.STRtree(stock.geometries(copies.taken(order[members])))
+    point, member = tree.query(at, predicate="intersects")
+    mine = of[member] == owner[point]
+    point, member = point[mine], member[mine]
     found = order[ends[owner]]
-    who, which = np.unique(asker[holds], return_index=True)
-    found[who] = members[holds[which]]
+    by = np.lexsort([member, point])
+    who, first = np.unique(point[by], return_index=True)
+    found[who] = order[members[member[by][first]]]
     return np.asarray(found)
 
 

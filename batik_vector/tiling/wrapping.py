@@ -5,7 +5,6 @@ Coordinates are whole grid steps.
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Sequence
 
 import numpy as np
@@ -132,14 +131,15 @@ class Torus:
         if not len(breaks):
             return []
         found = []
+        allowed = self._allowed
         for axis in (0, 1):
             mine = seams.joined(breaks[breaks[:, 0] == axis, 1:])
-            legal = seams.joined(self._allowed[self._allowed[:, 0] == axis, 1:])
+            legal = seams.joined(allowed[allowed[:, 0] == axis, 1:])
             together = seams.joined(np.vstack([mine, legal]))
             found += [(axis, low, high) for low, high in seams.symmetric_difference(together, legal).tolist()]
         return found
 
-    @functools.cached_property
+    @property
     def _allowed(self) -> NDArray[np.int64]:
         """The edges of marks that run along the seam themselves, as (axis, from, to)."""
         return seams.on_seam(np.concatenate([np.empty(0, dtype=object), *self._crossing]), self.window)
