@@ -225,6 +225,8 @@ class Stock:
     def set_down(self, results: Geometries, row: Index, shift: Steps) -> SetDown:
         """Set down the polygons of result ``row[i]`` at ``shift[i]`` for every i."""
         pieces, of = polygons_of(results, np.arange(len(results)))
+        order = np.argsort(of, kind="stable")
+        pieces, of = pieces[order], of[order]
         ends = np.searchsorted(of, np.arange(len(results) + 1))
         which, starts = runs(ends, row)
         each = np.repeat(np.arange(len(row)), np.diff(starts))

@@ -71,14 +71,31 @@ def mended(marks: Geometries) -> Geometries:
     """Return invalid marks as valid ones on the grid.
 
     Neither way in which GEOS mends is right for all: the one fills a hole that a hair crosses, the other may
-    lose a ring that touches itself. What keeps the area is taken.
+    lose a ring that touches itself, or give up. What keeps the area best is taken.
     """
-    ways = [
-        shapely.set_precision(shapely.make_valid(marks), 1.0),
-        shapely.set_precision(shapely.make_valid(marks, method="structure", keep_collapsed=False), 1.0),
-    ]
-    lost = [np.abs(shapely.area(way) - shapely.area(marks)) for way in ways]
-    return np.where(lost[0] <= lost[1], *ways)
+    found = np.empty(len(marks), dtype=object)
+    for number, (mark, area) in enumerate(zip(marks, shapely.area(marks), strict=True)):
+        ways = [each for make in (_by_lines, _by_structure) for each in _mended(mark, make)]
+        found[number] = min(ways, key=lambda way: abs(shapely.area(way) - area), default=shapely.Polygon())
+    return found
+
+
+def _mended(
+    mark: shapely.Geometry, make: Callable[[shapely.Geometry], shapely.Geometry]
+) -> list[shapely.Geometry]:
+    """Return a mark mended in one way; nothing where that way fails."""
+    try:
+        return [shapely.set_precision(make(mark), 1.0)]
+    except shapely.errors.GEOSException:
+        return []
+
+
+def _by_lines(mark: shapely.Geometry) -> shapely.Geometry:
+    return shapely.make_valid(mark)
+
+
+def _by_structure(mark: shapely.Geometry) -> shapely.Geometry:
+    return shapely.make_valid(mark, method="structure", keep_collapsed=False)
 
 
 def _without_specks(areas: Geometries) -> Geometries:
