@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import unicodedata
 from collections.abc import Iterable
 
 from batik_vector.errors import ExportError
@@ -57,6 +56,11 @@ def distinct_aci(colours: Iterable[str]) -> list[int]:
 
 def ascii_name(name: str) -> str:
     """Return a name without accents and without anything that is not ASCII."""
+    if name.isascii():
+        return name
+    # Its tables take longer to load than all inks to write.
+    import unicodedata
+
     return unicodedata.normalize("NFKD", name).encode("ascii", "ignore").decode("ascii")
 
 
