@@ -171,7 +171,7 @@ def spreads(maps: Affines, marks: Callable[[], Sequence[Geometries]] | None = No
     Returns:
         Every copy in one of them. Where most differ in size or shape, one that holds all as they are.
     """
-    size = np.zeros(len(maps), np.intp) if maps.are_translates else _alike(_gram(maps))
+    size = np.zeros(len(maps), np.intp) if maps.are_translates else alike(_gram(maps))[1]
     count = int(size.max()) + 1
     if len(maps) == 1 or 2 * count > len(maps):
         return [Spread(maps, ONE, np.zeros(1, np.intp))]
@@ -232,7 +232,7 @@ def _kinds(carriers: Affines, phase: Array) -> Indices:
     z = np.where(on_steps, np.where(mirrored, z.conj(), z) ** 4, z)
     rows = [_cells(part, 100 * SIMILAR) for part in (z.real, z.imag)]
     rows += [_cells(part, NEAR) for part in phase.T]
-    return _alike(np.column_stack([*rows, on_steps, mirrored & ~on_steps]))
+    return alike(np.column_stack([*rows, on_steps, mirrored & ~on_steps]))[1]
 
 
 def _groups(carriers: Affines, numbers: Indices) -> tuple[Group, ...]:
@@ -271,7 +271,7 @@ def _meet(marks: Geometries, carriers: Affines) -> bool:
     apart = _cells(carriers.shifts[other] - carriers.shifts[one], MEETING)
     turns = _cells(carriers.linear, 100 * SIMILAR)
     rows = np.hstack([turns[one], turns[other], apart])
-    _, first = np.unique(_alike(rows), return_index=True)
+    first, _ = alike(rows)
     return len(first) > MOST_NEIGHBOURS or any(
         _share_an_edge(*(carriers.taken(i).apply(marks) for i in (one[k : k + 1], other[k : k + 1])))
         for k in first.tolist()
@@ -303,14 +303,3 @@ def _gram(maps: Affines) -> NDArray[np.int64]:
 def _cells(values: Array, size: float) -> NDArray[np.int64]:
     """Return in which cell of a size each value lies; 0, halves and thirds lie off the edges of cells."""
     return np.floor(values / size + 0.382).astype(np.int64)
-
-
-def _alike(rows: NDArray[np.int64]) -> Indices:
-    """Return a number for each row, the same for equal rows."""
-    rows = rows[:, (rows != rows[:1]).any(axis=0)]
-    number = np.zeros(len(rows), np.intp)
-    if rows.shape[1]:
-        order = np.lexsort(rows.T)
-        new = (rows[order[1:]] != rows[order[:-1]]).any(axis=1)
-        number[order[1:]] = np.cumsum(new)
-    return number
