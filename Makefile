@@ -7,13 +7,13 @@ PY := $(BIN)/python
 READY := .venv/.ready
 CLIENTS_READY := .venv/.clients-ready
 PEERS_READY := .venv-bench/.ready
-WORKERS := -n auto --maxprocesses 8
+WORKERS := -n auto --maxprocesses 8 --dist worksteal
 
 # The tools' own state must not depend on who calls.
 export PYTHON
 unexport PYTHONPATH PYTHONHOME VIRTUAL_ENV
 
-.PHONY: help demo test test-clients lint format bench golden docs setup clean
+.PHONY: help demo test test-clients test-long lint format bench golden docs setup clean
 
 help: ## list these verbs
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' $(firstword $(MAKEFILE_LIST)) | expand -t 22
@@ -26,6 +26,9 @@ test: $(READY) ## run the tests
 
 test-clients: $(READY) $(CLIENTS_READY) ## open the files in Inkscape, LibreCAD, Chromium, poppler, mupdf, qpdf
 	$(PY) -m pytest $(WORKERS) -rs -m clients
+
+test-long: $(READY) ## run the random tests with many more examples
+	BATIK_LONG=1 $(PY) -m pytest $(WORKERS) -rs -m 'long and not clients'
 
 lint: $(READY) ## check style and types
 	$(BIN)/ruff check .

@@ -197,11 +197,22 @@ def hint_of(cls: type, name: str) -> Any:
 
     One field at a time, as a recipe uses few of a class's, and to make a type of its text is what costs.
     """
-    home = next(base for base in cls.__mro__ if name in vars(base).get("__annotations__", ()))
+    field = cls.__dataclass_fields__[name]  # type: ignore[attr-defined]
+    home = _home(cls, name, field)
     if home is not cls:
         return hint_of(home, name)  # once for all heirs
-    alone = types.SimpleNamespace(__annotations__={name: cls.__annotations__[name]})
+    # As the dataclass has read it: text, or from Python 3.14 on a type whose names may be still to come.
+    alone = types.SimpleNamespace(__annotations__={name: field.type})
     return typing.get_type_hints(alone, vars(sys.modules[cls.__module__]), include_extras=True)[name]
+
+
+def _home(cls: type, name: str, field: Any) -> type:
+    """Return the class that declares a field: the last one up the line to hold this very object."""
+    return next(
+        base
+        for base in reversed(cls.__mro__)
+        if vars(base).get("__dataclass_fields__", {}).get(name) is field
+    )
 
 
 @functools.cache

@@ -34,7 +34,7 @@ MM_PER_UNIT = {
 }
 """Millimetres in one of each unit that a recipe may write. Pixels are left out: they have no length."""
 
-_LENGTH = re.compile(r"^\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)\s*([a-zA-Zµ\"]*)\s*$")
+_LENGTH = re.compile(r"^\s*+([+-]?(?:\d++\.?+\d*+|\.\d++)(?:[eE][+-]?\d{1,3})?)\s*+([a-zA-Zµ\"]*+)\s*+$")
 
 
 def parse_length(value: str | float | int) -> float:

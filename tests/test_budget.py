@@ -36,16 +36,16 @@ from tests.budgets import (
     cold,
     counted,
     elements,
-    lines_run,
     peak_bytes,
     rows_of,
+    steps_run,
 )
 
 BUDGETS = Budgets(
     {
         # Reading samples/four-square.toml.
         "types resolved from annotations, first reading": 67,
-        "lines of our code for each placement read": 384,
+        "steps of our code for each placement read": 124,
         # Points of a curve evaluated for each vertex drawn: a polyline seven times as dense is thinned, and
         # each of its chords was probed in three places, in rounds.
         "evaluations per vertex, superellipse": 59,
@@ -63,7 +63,7 @@ BUDGETS = Budgets(
         "evaluations per vertex, bent layout": 57,
         # Placing ten thousand copies; then the images of a symmetry, of which the same are sorted out.
         "shapely calls for a placement": 63,
-        "lines of our code for each image of a symmetry": 3,
+        "steps of our code for each image of a symmetry": 1.5,
         # Where two copies or four are one another's images on the grid, each such group is landed by itself.
         "shapely calls for each copy, two turned alike": 5.75,
         # Compiling samples/four-square.toml.
@@ -72,7 +72,7 @@ BUDGETS = Budgets(
         "shapely calls, a petal longer": 312,
         "shapely calls, the same recipe again": 239,
         # Every mark of a page has its name.
-        "lines of our code for each mark": 1,
+        "steps of our code for each mark": 1,
         # What Python and NumPy hold at most, at 10^5 vertices.
         "bytes per vertex, compiling": 36,
         "bytes per vertex, compiling a net": 102,
@@ -130,11 +130,11 @@ def test_reading_goes_with_the_length_of_a_recipe() -> None:
         '[[place]]\nmotif = "knot"\nlayout = { kind = "lattice", rows = 4 }\nscale = "60 mm"\nink = "wax"\n'
     )
     read_recipe(text)
-    once = lines_run(partial(read_recipe, text))
+    once = steps_run(partial(read_recipe, text))
     for count in (10, 100):
         longer = text.replace("[tile]", more * count + "[tile]")
-        spent = lines_run(partial(read_recipe, longer)) - once
-        BUDGETS.hold("lines of our code for each placement read", spent / count)
+        spent = steps_run(partial(read_recipe, longer)) - once
+        BUDGETS.hold("steps of our code for each placement read", spent / count)
 
 
 # Drawing
@@ -236,7 +236,7 @@ def test_a_hundred_copies_and_ten_thousand_are_set_down_by_the_same_calls(
     with counted() as other:
         many()
     assert other.calls() == one.calls()
-    assert lines_run(many) <= lines_run(few) + 20
+    assert steps_run(many) <= steps_run(few) + 5
     BUDGETS.hold("shapely calls for a placement", other.calls())
 
 
@@ -250,7 +250,7 @@ def test_images_under_a_symmetry_are_set_down_by_the_same_calls() -> None:
     assert other.calls() == one.calls()
     images = 8 * (40**2 - 10**2)
     BUDGETS.hold(
-        "lines of our code for each image of a symmetry", (lines_run(many) - lines_run(few)) / images
+        "steps of our code for each image of a symmetry", (steps_run(many) - steps_run(few)) / images
     )
 
 
@@ -280,10 +280,10 @@ def test_a_page_a_hundred_times_as_large_is_compiled_by_the_same_calls(motifs: t
             artwork = compile_recipe(recipe)
         calls.append(work.calls())
         cold()
-        lines.append(lines_run(partial(compile_recipe, recipe)))
+        lines.append(steps_run(partial(compile_recipe, recipe)))
     assert calls[0] == calls[1]
     marks = len(artwork.layers[0].areas) * 0.99
-    BUDGETS.hold("lines of our code for each mark", (lines[1] - lines[0]) / marks)
+    BUDGETS.hold("steps of our code for each mark", (lines[1] - lines[0]) / marks)
 
 
 def in_a_ring(count: int, turn: float) -> int:

@@ -27,7 +27,7 @@ PACKAGE = ROOT / "batik_vector"
 FLOORS: tuple[frozenset[str], ...] = tuple(
     frozenset(rooms.split())
     for rooms in (
-        "_version values",
+        "_version values patterns",
         "errors",
         "units",
         "fields references outlines",

@@ -8,7 +8,7 @@ import re
 from collections.abc import Sequence
 from typing import Any
 
-from batik_vector.importing.matrix import NUMBER
+from batik_vector.patterns import NUMBER
 
 _FUNCTION = re.compile(r"\s*+(rgb|hsl)a?+\(([^()]*+)\)\s*+", re.IGNORECASE)
 _PART = re.compile(rf"({NUMBER})(%|[a-z]*+)", re.IGNORECASE)

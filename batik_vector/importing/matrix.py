@@ -13,10 +13,10 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from batik_vector.patterns import NUMBER
+
 Matrix: TypeAlias = tuple[float, float, float, float, float, float]
 IDENTITY: Matrix = (1.0, 0.0, 0.0, 1.0, 0.0, 0.0)
-NUMBER = r"[-+]?+(?:\d++\.?+\d*+|\.\d++)(?:[eE][-+]?+\d++)?+"
-"""Possessive throughout: a number is never tried shorter, so that no text takes longer than its length."""
 PX_PER_INCH = 96.0
 PX_PER_UNIT = {
     "": 1.0,

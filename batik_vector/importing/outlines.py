@@ -14,7 +14,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from batik_vector.importing.matrix import NUMBER, Matrix, moved
+from batik_vector.importing.matrix import Matrix, moved
+from batik_vector.patterns import NUMBER, numbers_in
 from batik_vector.values import frozen
 
 Points = NDArray[np.float64]
@@ -40,8 +41,6 @@ class Outline:
 EMPTY = Outline(np.empty((0, 2)), np.empty(0, np.uint8), np.empty(0, bool))
 
 _COMMAND = re.compile(r"([MmZzLlHhVvCcSsQqTtAa])([^MmZzLlHhVvCcSsQqTtAa]*)")
-_NUMBERS = re.compile(NUMBER)
-_ALL_NUMBERS = re.compile(r"(?:[\s,]*+[-+]?+(?:\d++\.?+\d*+|\.\d++)(?:[eE][-+]?+\d++)?+)*+[\s,]*+")
 _ARC = re.compile(
     r"[\s,]*+({0})[\s,]*+({0})[\s,]*+({0})[\s,]*+([01])[\s,]*+([01])[\s,]*+({0})[\s,]*+({0})".replace(
         "{0}", NUMBER
@@ -79,9 +78,10 @@ def _numbers(letter: str, text: str) -> Points:
             raise ValueError(f'path data "{letter}{text[:40]}" cannot be read')
         numbers = np.array(found, float).reshape(-1)
     else:
-        if not _ALL_NUMBERS.fullmatch(text):
+        read = numbers_in(text)
+        if read is None:
             raise ValueError(f'path data "{letter}{text[:40]}" cannot be read')
-        numbers = np.array(list(map(float, _NUMBERS.findall(text))))
+        numbers = np.array(read)
     takes = _TAKES[command]
     if (len(numbers) % takes if takes else len(numbers)) or (takes and not len(numbers)):
         some = f"{takes} numbers, or a multiple" if takes else "no number"

@@ -11,14 +11,15 @@ import re
 import xml.etree.ElementTree as ET
 
 from batik_vector.importing.document import Document
-from batik_vector.importing.matrix import NUMBER, PX_PER_INCH, PX_PER_UNIT, Matrix, times
+from batik_vector.importing.matrix import PX_PER_INCH, PX_PER_UNIT, Matrix, times
+from batik_vector.patterns import NUMBER
 from batik_vector.units import GRID_MM, format_mm
 from batik_vector.values import frozen
 
 MM_PER_PX = 25.4 / PX_PER_INCH
 LEAST_MM, MOST_MM = 0.1, 20_000.0
 _LENGTH = re.compile(rf"\s*+({NUMBER})\s*+(%|[a-zA-Z]*+)\s*+")
-_ASPECT = re.compile(r"\s*(?:defer\s+)?(?:none|x(Min|Mid|Max)Y(Min|Mid|Max))(?:\s+(meet|slice))?\s*")
+_ASPECT = re.compile(r"\s*+(?:defer\s++)?(?:none|x(Min|Mid|Max)Y(Min|Mid|Max))(?:\s++(meet|slice))?\s*+")
 
 Box = tuple[float, float, float, float]
 """Left, top, width and height in user units."""

@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import re
 import xml.etree.ElementTree as ET
 
 import numpy as np
 
 from batik_vector.importing.document import local
-from batik_vector.importing.matrix import NUMBER
 from batik_vector.importing.outlines import EMPTY, Outline, ellipse, parse_path, polyline, rectangle
 from batik_vector.importing.page import parse_px
+from batik_vector.patterns import numbers_in
 
 SHAPES = frozenset(("path", "rect", "circle", "ellipse", "line", "polyline", "polygon"))
-_POINTS = re.compile(rf"(?:[\s,]*+(?:{NUMBER}))*+[\s,]*+")
-_NUMBERS = re.compile(NUMBER)
 
 
 def outline_of(element: ET.Element, size: tuple[float, float]) -> Outline:
@@ -78,9 +75,9 @@ class _Reader:
 
 
 def _points(text: str, closed: bool) -> Outline:
-    if not _POINTS.fullmatch(text):
+    numbers = numbers_in(text)
+    if numbers is None:
         raise ValueError(f'points = "{text[:40]}" cannot be read')
-    numbers = list(map(float, _NUMBERS.findall(text)))
     if len(numbers) % 2:
         raise ValueError(f"points with {len(numbers)} numbers, expected pairs")
     return polyline(np.array(numbers, float).reshape(-1, 2), closed)

@@ -37,6 +37,6 @@ def deep_key(text: str) -> int | None:
     # Only a text with as many dots can have one.
     if text.count(".") < MAX_DEPTH:
         return None
-    part = r"(?:[\w-]++|\"[^\"\n]*\"|'[^'\n]*')[ \t]*\.[ \t]*"
+    part = r"(?:[\w-]++|\"[^\"\n]*+\"|'[^'\n]*+')[ \t]*+\.[ \t]*+"
     found = re.search(rf"(?<![\w-])(?:{part}){{{MAX_DEPTH}}}", text)
     return found.start() if found else None

@@ -9,13 +9,13 @@ from bisect import bisect_right
 
 from batik_vector.references import Path
 
-_BLANK = re.compile(r"(?:[ \t\r\n]|#[^\n]*)*+")
+_BLANK = re.compile(r"[ \t\r\n]*+(?:#[^\n]*+[ \t\r\n]*+)*")
 _SPACE = re.compile(r"[ \t]*+")
 _BARE = re.compile(r"[A-Za-z0-9_-]++")
 _TEXT = re.compile(
-    r'"""(?:[^"\\]|\\.|"(?!""))*+"{3,5}'
-    r"|'''(?:[^']|'(?!''))*+'{3,5}"
-    r'|"(?:[^"\\\n]|\\.)*+"'
+    r'"""[^"\\]*+(?:(?:\\.|"(?!""))[^"\\]*+)*"{3,5}'
+    r"|'''[^']*+(?:'(?!'')[^']*+)*'{3,5}"
+    r'|"[^"\\\n]*+(?:\\.[^"\\\n]*+)*"'
     r"|'[^'\n]*+'",
     re.DOTALL,
 )
@@ -161,7 +161,7 @@ def parse_path(text: str) -> Path:
     path: list[str | int] = []
     at = 0
     token = re.compile(
-        r"""\[(\d{1,9})\]|(?:^|(?<=.)\.)(?:([A-Za-z0-9_-]+)|("(?:[^"\\\n]|\\.)*"|'[^'\n]*'))"""
+        r"""\[(\d{1,9})\]|(?:^|(?<=.)\.)(?:([A-Za-z0-9_-]+)|("[^"\\\n]*+(?:\\.[^"\\\n]*+)*"|'[^'\n]*+'))"""
     )
     while at < len(text):
         found = token.match(text, at)

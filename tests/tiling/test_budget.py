@@ -35,9 +35,9 @@ from tests.budgets import (
     cold,
     counted,
     elements,
-    lines_run,
     peak_bytes,
     rows_of,
+    steps_run,
 )
 
 BUDGETS = Budgets(
@@ -60,14 +60,14 @@ BUDGETS = Budgets(
         "net: vertices united, per vertex left": 1.6,
         # Sides of squares, each drawn twice, joined end to end; and items in a chain.
         "joining: elements sorted per segment": 9.5,
-        "joining: lines of our code": 90,
-        "chain: lines of our code for each doubling": 18,
+        "joining: steps of our code": 13,
+        "chain: steps of our code for each doubling": 4,
         # What drawing a cloth piece by piece costs, for each piece.
-        "marks: lines of our code for a piece": 95,
-        "marks on the seam: lines of our code for a piece": 100,
-        "trellis: lines of our code for a piece": 56,
-        "lines: lines of our code for a piece": 111,
-        "endless lines: lines of our code for a piece": 631,
+        "marks: steps of our code for a piece": 32,
+        "marks on the seam: steps of our code for a piece": 33,
+        "trellis: steps of our code for a piece": 13.7,
+        "lines: steps of our code for a piece": 35.4,
+        "endless lines: steps of our code for a piece": 151,
         # What a cloth sorts, for each point that is drawn; of marks, only those at its edge.
         "marks: elements sorted per point": 0.022,
         "marks on the seam: elements sorted per point": 0.032,
@@ -217,7 +217,7 @@ def test_joining_sorts_each_segment_a_few_times(count: int) -> None:
     with counted(SORTS, elements) as work:
         drawn_once(lines, names)
     BUDGETS.hold("joining: elements sorted per segment", work.given() / len(lines))
-    BUDGETS.hold("joining: lines of our code", lines_run(partial(drawn_once, lines, names)))
+    BUDGETS.hold("joining: steps of our code", steps_run(partial(drawn_once, lines, names)))
     with counted() as geos:
         drawn_once(lines, names)
     assert geos.given("line_merge") <= 2 * len(lines)
@@ -228,8 +228,8 @@ def test_components_of_a_chain_are_found_in_rounds_that_grow_with_its_logarithm(
     for power in (6, 14):
         chain = np.random.default_rng(1).permutation(2**power)
         pairs = np.column_stack([chain[:-1], chain[1:]])
-        spent.append(lines_run(partial(components, len(chain), pairs)))
-    BUDGETS.hold("chain: lines of our code for each doubling", (spent[1] - spent[0]) / 8)
+        spent.append(steps_run(partial(components, len(chain), pairs)))
+    BUDGETS.hold("chain: steps of our code for each doubling", (spent[1] - spent[0]) / 8)
 
 
 # Cloths
@@ -296,11 +296,11 @@ def test_a_cloth_runs_lines_of_code_for_its_pieces_and_not_for_its_marks(name: s
     short, long = (drawn(CLOTHS[name], repeats) for repeats in (4, 32))
     # What is worked out once in a process is worked out here.
     long()
-    assert lines_run(long) <= lines_run(short) * 1.05
+    assert steps_run(long) <= steps_run(short) * 1.05
     pieces, _ = drawn(CLOTHS[name], 32, 1000)()
     assert pieces > 5
-    more = lines_run(drawn(CLOTHS[name], 32, 1000)) - lines_run(long)
-    BUDGETS.hold(f"{name}: lines of our code for a piece", more / pieces)
+    more = steps_run(drawn(CLOTHS[name], 32, 1000)) - steps_run(long)
+    BUDGETS.hold(f"{name}: steps of our code for a piece", more / pieces)
 
 
 @cloths

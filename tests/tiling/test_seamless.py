@@ -19,9 +19,10 @@ from batik_vector.tiling.cells import MIRRORS, Cut
 from batik_vector.tiling.field import repeated
 from batik_vector.tiling.symmetry import Spread
 from tests.recipes import recipes
+from tests.thorough import examples, long
 
 many = settings(
-    max_examples=1000,
+    max_examples=examples(120, 1000),
     deadline=None,
     derandomize=True,
     # A recipe that fails is small enough to be read as it is; making it smaller takes minutes.
@@ -65,6 +66,7 @@ def twins(values: set[float], shift: float, length: float) -> set[float]:
     return {steps / 1000 for steps in moved} - {0.0}
 
 
+@long
 @many
 @given(recipes())
 def test_opposite_edges_are_bit_identical_and_the_artwork_is_in_normal_form(recipe: Recipe) -> None:
@@ -152,7 +154,8 @@ def welded(recipe: Recipe) -> Recipe:
     return replace(recipe, ink=inks, tile=replace(recipe.tiling, cut=Cut.RECTANGLE))
 
 
-@settings(many, max_examples=150)
+@long
+@settings(many, max_examples=examples(40, 150))
 @given(recipes(), st.floats(0.01, 0.99), st.floats(0.01, 0.99))
 def test_the_field_cut_elsewhere_is_the_tile(recipe: Recipe, u: float, v: float) -> None:
     artwork = compiled(welded(recipe))
@@ -163,7 +166,8 @@ def test_the_field_cut_elsewhere_is_the_tile(recipe: Recipe, u: float, v: float)
         assert abs(difference(layer.areas, areas)) < 1e-6
 
 
-@settings(many, max_examples=60)
+@long
+@settings(many, max_examples=examples(25, 100))
 @given(recipes(), st.integers(1, 14_000), st.integers(1, 14_000))
 def test_moving_every_placement_moves_the_drawing_and_nothing_else(recipe: Recipe, dx: int, dy: int) -> None:
     straight = welded(recipe)

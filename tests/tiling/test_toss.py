@@ -17,6 +17,7 @@ from batik_vector.tiling.layouts import Toss
 from batik_vector.tiling.marks import Field
 from batik_vector.tiling.scatter import Torus, in_steps
 from batik_vector.tiling.toss import Marks, Tossed, toss
+from tests.thorough import examples, long
 
 NOTHING = Field.of(np.empty(0, dtype=object))
 
@@ -71,9 +72,10 @@ def least_gap(shapes: Geometries, cell: Cell, operations: Sequence[Affine] = (Af
     return float(gap.min(initial=8.0))
 
 
+@long
 @pytest.mark.parametrize("begin", range(0, 200, 25))
-def test_no_two_marks_come_nearer_than_asked_in_200_falls(begin: int) -> None:
-    for seed in range(begin, begin + 25):
+def test_no_two_marks_come_nearer_than_asked(begin: int) -> None:
+    for seed in range(begin, begin + examples(10, 25)):
         cell = CELLS[seed % len(CELLS)]
         bodies = [BEAN, DOT] if seed % 5 == 0 else [BEAN]
         spec = Toss(distance=1.0, size=(0.7, 1.1), flip=True, tries=30, settle=1)

@@ -25,6 +25,7 @@ from batik_vector.geometry.maps import (
 from batik_vector.geometry.maps.flame import Images
 from tests.geometry.maps.measure import array_of, julian_area, outlines, stray
 from tests.strategies import polygons, spiral
+from tests.thorough import examples, long
 
 TOLERANCE = 2e-3
 
@@ -50,7 +51,8 @@ julians = st.builds(
 )
 
 
-@settings(max_examples=1000, deadline=None)
+@long
+@settings(max_examples=examples(150, 1000), deadline=None)
 @given(polygons(), julians)
 def test_valid_in_valid_out_and_areas_agree(shape: shapely.Polygon, julian: JuliaN) -> None:
     try:
@@ -68,7 +70,8 @@ def test_valid_in_valid_out_and_areas_agree(shape: shapely.Polygon, julian: Juli
     assert area == pytest.approx(expected, abs=TOLERANCE * length, rel=1e-4)
 
 
-@settings(max_examples=40, deadline=None)
+@long
+@settings(max_examples=examples(15, 60), deadline=None)
 @given(
     polygons(),
     st.builds(
@@ -96,7 +99,8 @@ def test_the_measure_can_fail() -> None:
     assert there > 50 * TOLERANCE
 
 
-@settings(max_examples=150, deadline=None)
+@long
+@settings(max_examples=examples(100, 300), deadline=None)
 @given(polygons(), st.sampled_from([2, 3, 4, 5]))
 def test_root_undone_is_the_region_and_no_step_leaps(shape: shapely.Polygon, power: int) -> None:
     """w^P1 lies on the source's edges, and each image edge stays there all along."""
@@ -113,7 +117,8 @@ def test_root_undone_is_the_region_and_no_step_leaps(shape: shapely.Polygon, pow
             assert (off <= allowed * 1.001 + 1e-9).all()
 
 
-@settings(max_examples=150, deadline=None)
+@long
+@settings(max_examples=examples(100, 300), deadline=None)
 @given(polygons(), st.sampled_from([2, 3, 4, 6]))
 def test_root_has_as_many_images_as_the_winding_number_says(shape: shapely.Polygon, power: int) -> None:
     images = flame(JuliaN(power, 1.0, "root")).areas(array_of(shape), TOLERANCE)
@@ -183,7 +188,8 @@ def test_rotate_at_dist_equal_power_is_turned_copies_exactly(shape: shapely.Poly
         np.testing.assert_allclose(shapely.get_coordinates(images.geometries[k]), expected, atol=1e-13)
 
 
-@settings(max_examples=40, deadline=None)
+@long
+@settings(max_examples=examples(15, 60), deadline=None)
 @given(polygons(), st.sampled_from([2, 3, 4, 5]), st.sampled_from(["root", "rotate"]))
 def test_images_have_the_symmetry_of_the_branches(shape: shapely.Polygon, power: int, reading: str) -> None:
     images = flame(JuliaN(power, 0.618 * power, reading)).areas(array_of(shape), TOLERANCE).geometries  # type: ignore[arg-type]
@@ -207,7 +213,8 @@ OTHERS = [
 
 
 @pytest.mark.parametrize("map_", OTHERS, ids=lambda m: "+".join(v.name for _, v in m.terms))
-@settings(max_examples=40, deadline=None)
+@long
+@settings(max_examples=examples(15, 60), deadline=None)
 @given(shape=polygons(st.just("inside")))
 def test_other_maps_against_dense_sampling(map_: FlameMap, shape: shapely.Polygon) -> None:
     images = map_.areas(array_of(shape), TOLERANCE)
@@ -221,7 +228,8 @@ def test_other_maps_against_dense_sampling(map_: FlameMap, shape: shapely.Polygo
 @pytest.mark.parametrize(
     "map_", [flame(Sinusoidal()), flame(JuliaN(4, 3.0, "literal"))], ids=["sinusoidal", "literal"]
 )
-@settings(max_examples=40, deadline=None)
+@long
+@settings(max_examples=examples(15, 60), deadline=None)
 @given(shape=polygons(), size=st.sampled_from([0.5, 2.0, 4.0]))
 def test_folded_regions_cover_their_points(map_: FlameMap, shape: shapely.Polygon, size: float) -> None:
     shape = Affine.scale(size).apply(array_of(shape))[0]

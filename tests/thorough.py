@@ -1,0 +1,20 @@
+"""How many examples a random test tries: some in ``make test``, many more in ``make test-long``.
+
+    @long
+    @settings(max_examples=examples(100, 1000))
+
+A test marked so runs in both; ``make test-long`` runs nothing else.
+"""
+
+from __future__ import annotations
+
+import os
+
+import pytest
+
+long = pytest.mark.long
+
+
+def examples(few: int, many: int) -> int:
+    """Return how many examples to try now."""
+    return many if os.environ.get("BATIK_LONG") else few
