@@ -2,18 +2,19 @@
 # what it needs by itself, once; `make` alone lists them.
 
 PYTHON ?= python3
-BIN := .venv/bin
+VENV ?= .venv
+BIN := $(VENV)/bin
 PY := $(BIN)/python
-READY := .venv/.ready
+READY := $(VENV)/.ready
 CLIENTS_READY := .venv/.clients-ready
 PEERS_READY := .venv-bench/.ready
 WORKERS := -n auto --maxprocesses 8 --dist worksteal
 
 # The tools' own state must not depend on who calls.
-export PYTHON
+export PYTHON VENV
 unexport PYTHONPATH PYTHONHOME VIRTUAL_ENV
 
-.PHONY: help demo test test-clients test-long lint format bench golden docs setup clean
+.PHONY: help demo test test-clients test-long test-pythons test-lowest test-bare lint format bench golden docs setup clean
 
 help: ## list these verbs
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' $(firstword $(MAKEFILE_LIST)) | expand -t 22
@@ -29,6 +30,16 @@ test-clients: $(READY) $(CLIENTS_READY) ## open the files in Inkscape, LibreCAD,
 
 test-long: $(READY) ## run the random tests with many more examples
 	BATIK_LONG=1 $(PY) -m pytest $(WORKERS) -rs -m 'long and not clients'
+
+test-pythons: ## lint and test on every Python from 3.11 on that this machine has
+	@tools/pythons.sh lint test
+
+test-lowest: ## test with the oldest versions of all that pyproject.toml asks for
+	@$(MAKE) --no-print-directory VENV=.venv-lowest KIND=lowest test
+
+test-bare: $(READY) ## README's two commands on bare systems: SUITE="bookworm trixie" (the default), or sid
+	@tools/setup.sh bare
+	@tools/bare.sh $(or $(SUITE),bookworm trixie)
 
 lint: $(READY) ## check style and types
 	$(BIN)/ruff check .
@@ -50,8 +61,8 @@ docs: $(READY) ## write docs/recipe.md from the program
 
 setup: $(READY) ## set up without doing anything else
 
-$(READY): pyproject.toml tools/setup.sh
-	@tools/setup.sh python
+$(READY): pyproject.toml tools/setup.sh tools/lowest.py
+	@tools/setup.sh $(or $(KIND),python)
 	@touch $@
 
 $(CLIENTS_READY): tools/setup.sh | $(READY)
@@ -63,5 +74,5 @@ $(PEERS_READY): benchmarks/requirements.txt tools/setup.sh
 	@touch $@
 
 clean: ## remove what was made here, the environment included
-	rm -rf .venv .venv-bench out dist .hypothesis .mypy_cache .pytest_cache .ruff_cache
+	rm -rf .venv .venv-* out dist .hypothesis .mypy_cache .pytest_cache .ruff_cache
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +

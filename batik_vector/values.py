@@ -4,6 +4,10 @@ The standard library writes out the methods of every frozen dataclass and compil
 millisecond a class: for the hundred classes of a recipe and its compiler that was a third of a short run. A
 value is such a dataclass to everybody (``fields``, ``replace``, ``asdict``, equality, hash, what it refuses),
 but all values share their methods, which look the fields up. Heirs of a value are values too.
+
+From Python 3.13 on the standard library compiles an empty function for each dataclass that asks for no
+methods. That costs 15 to 40 µs a class, a fiftieth of a start; to avoid it would mean to fill in the fields
+by names that the standard library keeps to itself.
 """
 
 from __future__ import annotations

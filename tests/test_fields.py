@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import dataclasses
+import importlib
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Annotated, Any
 
 import pytest
 
+from batik_vector import InkSpec, Placement, Recipe, TileSpec, compile_recipe
 from batik_vector.errors import GeometryError
 from batik_vector.fields import Between, Length, Says, _outside, check, hint_of
-from batik_vector.model import Recipe
 from batik_vector.reading.hints import Hint, members
+from batik_vector.tiling.layouts import Ring
 from batik_vector.values import frozen
 
 
@@ -94,3 +97,62 @@ def test_defaults_which_are_not_checked_lie_within_their_bounds(cls: type) -> No
     for field in dataclasses.fields(cls):
         if field.default is not dataclasses.MISSING:
             assert list(_outside(hint_of(cls, field.name), field.default)) == []
+
+
+OWN = """
+import math
+from typing import Annotated
+
+import numpy as np
+
+from batik_vector import Element, Rosette
+from batik_vector.fields import Between, Says
+from batik_vector.geometry.curves import Curve
+from batik_vector.values import frozen
+
+
+@frozen
+class Heart(Curve):
+    "Heart, x = sin(2πt)^3."
+
+    width: Annotated[float, Between(0.1, 10), Says("breadth")] = 1.0
+    later: "Annotated[tuple[Late, ...], Says('of a class that comes after')]" = ()
+
+    def at(self, t):
+        turn = 2 * np.pi * t
+        return np.column_stack([self.width * np.sin(turn) ** 3, np.cos(turn) - np.cos(2 * turn) / 3])
+
+
+@frozen
+class Broad(Heart):
+    "A heart with a field more."
+
+    height: Annotated[float, Between(0.1, 10)] = 1.0
+
+
+class Late:
+    pass
+
+
+star = Rosette(elements=(Element(curve=Broad(width=2.0), name="heart", count=5),))
+"""
+
+
+@pytest.mark.parametrize("future", ["", "from __future__ import annotations\n"])
+def test_curves_of_ones_own_are_made_with_and_without_deferred_annotations(
+    future: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Annotations are text, types, or from Python 3.14 on not yet worked out."""
+    name = f"own_{bool(future)}".lower()
+    (tmp_path / f"{name}.py").write_text(future + OWN, encoding="utf-8")
+    monkeypatch.syspath_prepend(tmp_path)
+    own = importlib.import_module(name)
+    tile = TileSpec(size=(100.0, 100.0))
+    place = (Placement(motif="star", layout=Ring(count=6, radius=2.2), width=90.0),)
+    recipe = Recipe(motif={"star": own.star}, place=place, ink={"wax": InkSpec()}, tile=tile)
+    assert len(compile_recipe(recipe).layers[0].areas) > 0
+    with pytest.raises(GeometryError, match=r"width = 99, expected 0\.1 to 10"):
+        own.Heart(width=99)
+    with pytest.raises(GeometryError, match=r"height = 0, expected 0\.1 to 10"):
+        own.Broad(height=0)
+    assert hint_of(own.Broad, "later").__origin__ == tuple[own.Late, ...]

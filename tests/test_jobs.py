@@ -141,7 +141,7 @@ def test_borders_alone_make_a_cloth(tmp_path: Path) -> None:
     report = made(tmp_path, TILE.split("[[place]]")[0] + CLOTH + BORDER)
     assert report["title"] == "Dots"
     assert report["files"][0]["size_mm"] == [220, 300]
-    assert svg_layers((tmp_path / "out" / "dots.svg").read_bytes())["1 wax"]
+    assert len(svg_layers((tmp_path / "out" / "dots.svg").read_bytes())["1 wax"])
 
 
 def test_a_cloth_too_large_is_refused_at_its_key(tmp_path: Path) -> None:

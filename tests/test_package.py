@@ -226,7 +226,7 @@ def test_a_tile_is_compiled_to_svg_with_nothing_else_imported(tmp_path: Path) ->
         assert not name.startswith("batik_vector") or is_module(name), name
 
 
-PASSED_OVER = {".git", ".venv", ".venv-bench", "out", "dist", "__pycache__", "build"}
+PASSED_OVER = {".git", "out", "dist", "__pycache__", "build"}
 MACHINE_PATH = re.compile(r"(?<![\w.~-])/(?:home|Users|root|work|mnt)/\w|\b[A-Z]:\\\\?Users\b")
 
 
@@ -234,7 +234,9 @@ def texts() -> Iterator[tuple[Path, str]]:
     folders = [ROOT]
     while folders:
         for path in folders.pop().iterdir():
-            if path.is_symlink() or path.name in PASSED_OVER or path.name.endswith("_cache"):
+            if path.is_symlink() or path.name in PASSED_OVER or path.name.startswith(".venv"):
+                continue
+            if path.name.endswith("_cache"):
                 continue
             if path.is_dir() and path.name != ".hypothesis":
                 folders.append(path)

@@ -1,24 +1,55 @@
 #!/usr/bin/env bash
 # Makes the machine ready, step by step, doing only what is not yet done.
 #
-#   tools/setup.sh python     .venv with this package and its development tools, and cairo
+#   tools/setup.sh python     an environment with this package and its development tools, and cairo
+#   tools/setup.sh lowest     the same with the oldest versions that pyproject.toml allows
 #   tools/setup.sh peers      .venv-bench with what the benchmarks measure us against
 #   tools/setup.sh clients    the real programs that tests/clients opens files in
+#   tools/setup.sh bare       what makes a bare system
 #
-# What the system lacks is installed by apt where we are root or sudo asks no password; elsewhere the one
-# command that does it is printed.
+# PYTHON is the interpreter, VENV the folder of the environment. What the system lacks is installed by apt where
+# we are root or sudo asks no password; elsewhere the one command that does it is printed. Whatever stops it, one
+# line says what and the next call goes on.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 python=${PYTHON:-python3}
-venv=.venv
+venv=${VENV:-.venv}
 peers=.venv-bench
+log=
 
 say() { printf '%s\n' "setup: $*" >&2; }
 
 fail() {
     say "$@"
     exit 1
+}
+
+trap 'rm -f "$log"' EXIT
+log=$(mktemp 2>/dev/null) || fail "no room for a temporary file in ${TMPDIR:-/tmp}: free some, then run make again"
+
+# What to say of a step that failed, from what it printed.
+because() { # what was being done
+    if grep -qiE 'no space left on device|disk quota exceeded|not enough free space|write error: no space' "$log"; then
+        fail "$1: the disk is full; free some room, then run make again"
+    elif grep -qiE 'permission denied|read-only file system' "$log"; then
+        local where
+        where=$(grep -iE 'permission denied|read-only file system' "$log" | grep -oE "'?/[^':]+'?" | head -n 1) || true
+        fail "$1: may not write ${where:-there}; make it yours, then run make again"
+    elif grep -qiE 'name resolution|name or service not known|temporary failure resolving|could not resolve|failed to establish|unable to connect|could not connect|network is unreachable|connection (refused|timed out|failed)|max retries exceeded|connectionerror|cannot initiate the connection|connecttimeout' "$log"; then
+        fail "$1: no network, or the package index does not answer; run make again when it does"
+    fi
+    # The last complaint is the one that ended it.
+    local words
+    words=$(grep -E '^(ERROR|E|error)[: ]' "$log" | tail -n 1) || words=$(tail -n 1 "$log")
+    fail "$1 failed: ${words:-for no reason that it told}"
+}
+
+step() { # what it does, command…
+    local what=$1
+    shift
+    say "$what"
+    "$@" </dev/null >"$log" 2>&1 || because "$what"
 }
 
 as_root=()
@@ -30,58 +61,74 @@ may_install() {
 }
 
 apt() {
-    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -o Dpkg::Use-Pty=0 "$@" </dev/null >"$log" 2>&1
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -o Dpkg::Use-Pty=0 "$@"
+}
+
+apt_install() { # packages…
+    apt install -y --no-install-recommends "$@" && return
+    # A machine just made has no package lists, and an old one has stale ones.
+    apt update && apt install -y --no-install-recommends "$@"
 }
 
 system_needs() { # packages…
     may_install || fail "please run: sudo apt-get install -y --no-install-recommends $*"
-    say "installing $* (apt)"
-    log=$(mktemp)
-    # A machine just made has no package lists, and an old one has stale ones.
-    if ! apt install -y --no-install-recommends "$@"; then
-        { apt update && apt install -y --no-install-recommends "$@"; } || {
-            cat "$log" >&2
-            rm -f "$log"
-            fail "apt could not install $*"
-        }
-    fi
-    rm -f "$log"
+    step "installing $* (apt)" apt_install "$@"
 }
 
 environment() { # folder
-    if ! "$1/bin/python" -m pip --version >/dev/null 2>&1; then
+    # What was stopped half-way is begun again.
+    if [ -e "$1/.unfinished" ] || ! "$1/bin/python" -m pip --version >/dev/null 2>&1; then
         # Debian keeps ensurepip, without which a venv has no pip, in a package of its own.
         "$python" -c 'import ensurepip, venv' 2>/dev/null ||
             system_needs "$("$python" -c 'import sys; print("python{}.{}-venv".format(*sys.version_info))')"
-        say "making $1"
-        "$python" -m venv --clear "$1"
+        step "making $1" "$python" -m venv --clear "$1"
     fi
+    step "beginning in $1" touch "$1/.unfinished"
 }
 
-python_ready() {
+pip_install() { # folder, arguments…
+    local folder=$1
+    shift
+    "$folder/bin/python" -m pip install --quiet --disable-pip-version-check --no-input --retries 2 "$@"
+}
+
+python_known() {
     command -v "$python" >/dev/null || fail "$python is missing; please run: sudo apt-get install -y python3"
     "$python" -c 'import sys; sys.exit(sys.version_info < (3, 11))' ||
         fail "$("$python" --version) is too old: 3.11 or later is needed (make PYTHON=python3.12 …)"
+}
+
+package_ready() { # pip's further arguments…
     environment "$venv"
-    say "installing the package and its tools into $venv (pip)"
-    "$venv/bin/python" -m pip install --quiet --disable-pip-version-check --no-input --editable '.[dev]'
+    step "installing the package and its tools into $venv (pip)" pip_install "$venv" "$@" --editable '.[dev]'
     # Cairo is the one library that no wheel brings along.
     "$venv/bin/python" -c 'import cairosvg' 2>/dev/null || system_needs libcairo2
     "$venv/bin/python" -c 'import cairosvg'
+    rm -f "$venv/.unfinished"
+}
+
+python_ready() {
+    python_known
+    package_ready
+}
+
+lowest_ready() {
+    python_known
+    environment "$venv"
+    "$venv/bin/python" tools/lowest.py >"$venv/lowest.txt"
+    package_ready --constraint "$venv/lowest.txt"
 }
 
 peer() { # where to, requirement: install it without what else it asks for, or note why not
-    local log missing=$peers/missing/${2%%==*}
-    log=$(mktemp)
-    if ! "$peers/bin/python" -m pip install --quiet --disable-pip-version-check --no-input --no-deps \
-        ${1:+--target "$1"} "$2" >"$log" 2>&1; then
+    local missing=$peers/missing/${2%%==*}
+    if ! pip_install "$peers" --no-deps ${1:+--target "$1"} "$2" >"$log" 2>&1; then
         say "$2 cannot be installed: the benchmarks leave it out"
         grep -iE 'error' "$log" | tail -n 1 >"$missing" || echo "pip failed" >"$missing"
     fi
-    rm -f "$log"
 }
 
 peers_ready() {
+    python_known
     environment "$peers"
     rm -rf "$peers/missing" "$peers/plug-ins"
     mkdir -p "$peers/missing"
@@ -99,21 +146,30 @@ peers_ready() {
         esac
     done <benchmarks/requirements.txt
     "$peers/bin/python" -c 'import cairocffi' 2>/dev/null || (system_needs libcairo2) || say "cairosvg lacks cairo"
+    rm -f "$peers/.unfinished"
+}
+
+programs_ready() { # program:package…
+    local missing=() row
+    for row in "$@"; do
+        command -v "${row%%:*}" >/dev/null || missing+=("${row#*:}")
+    done
+    [ ${#missing[@]} -eq 0 ] || system_needs "${missing[@]}"
 }
 
 clients_ready() {
-    local missing=() row
-    for row in inkscape:inkscape librecad:librecad qpdf:qpdf pdftocairo:poppler-utils mutool:mupdf-tools; do
-        command -v "${row%%:*}" >/dev/null || missing+=("${row#*:}")
+    local browser=chromium:chromium name
+    for name in chromium-browser google-chrome; do
+        ! command -v $name >/dev/null || browser=$name:chromium
     done
-    command -v chromium >/dev/null || command -v chromium-browser >/dev/null ||
-        command -v google-chrome >/dev/null || missing+=(chromium)
-    [ ${#missing[@]} -eq 0 ] || system_needs "${missing[@]}"
+    programs_ready inkscape:inkscape librecad:librecad qpdf:qpdf pdftocairo:poppler-utils mutool:mupdf-tools $browser
 }
 
 case ${1:-} in
 python) python_ready ;;
+lowest) lowest_ready ;;
 peers) peers_ready ;;
 clients) clients_ready ;;
-*) fail "usage: tools/setup.sh python|peers|clients" ;;
+bare) programs_ready debootstrap:debootstrap git:git ;;
+*) fail "usage: tools/setup.sh python|lowest|peers|clients|bare" ;;
 esac

@@ -1,0 +1,78 @@
+#!/usr/bin/env bash
+# Tries README's two commands, as they stand there, on a bare Debian of each suite named.
+#
+#   tools/bare.sh bookworm trixie
+#
+# A minimal system with python3, make and ca-certificates is made by debootstrap in a temporary folder, and a
+# clone of HEAD put into it. What the samples compile to there is held against what they compile to here. All of
+# it lives in a mount namespace and a process namespace of its own, which end with it, however it ends.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+say() { printf '%s\n' "bare: $*" >&2; }
+
+fail() {
+    say "$@"
+    exit 1
+}
+
+if [ "${1:-}" = --inside ]; then
+    # In the namespaces: make the system, then run the commands in it.
+    suite=$2 folder=$3
+    root=$folder/root
+    if ! debootstrap --variant=minbase --include=python3,make,ca-certificates "$suite" "$root" >"$folder/log" 2>&1; then
+        fail "$suite: debootstrap failed: $(tail -n 1 "$folder/log")"
+    fi
+    mount -t proc proc "$root/proc"
+    mount --rbind /dev "$root/dev"
+    # The network, and whom to trust in it, are this machine's.
+    cp --dereference /etc/resolv.conf "$root/etc/resolv.conf"
+    ! [ -e /etc/ssl/certs/ca-certificates.crt ] ||
+        cp --dereference /etc/ssl/certs/ca-certificates.crt "$root/etc/ssl/certs/ca-certificates.crt"
+    git clone --quiet --no-hardlinks . "$root/root/batik_vector"
+    cp "$folder/here" "$root/root/here"
+    kept=(HOME=/root LANG=C.UTF-8 PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin)
+    for name in http_proxy https_proxy no_proxy; do
+        if [ -n "${!name:-}" ]; then kept+=("$name=${!name}"); fi
+    done
+    in_it() { chroot "$root" env -i "${kept[@]}" sh -c "cd /root/batik_vector && $1" </dev/null; }
+    say "$suite: $(in_it 'python3 --version')"
+    told="$suite: $(in_it 'python3 -c "import sys; print(sys.version.split()[0])"')"
+    while read -r command; do
+        began=$SECONDS
+        in_it "$command" || fail "$suite: $command failed"
+        told+=", $command $((SECONDS - began)) s"
+    done <"$folder/commands"
+    bytes=$(in_it '.venv/bin/python tools/digests.py --against /root/here' 2>&1) || fail "$suite: $bytes"
+    echo "bare: $told, $bytes" >>"$folder/told"
+    exit 0
+fi
+
+[ $# -gt 0 ] || fail 'usage: tools/bare.sh SUITE…, as "bookworm trixie"'
+[ "$(id -u)" -eq 0 ] || fail "only root may make a system in a folder; please run: sudo make test-bare"
+command -v debootstrap >/dev/null || fail "please run: apt-get install -y debootstrap"
+unshare --mount --pid --fork true 2>/dev/null || fail "this system lets nobody mount, as containers do; please try on another"
+[ -z "$(git status --porcelain 2>/dev/null)" ] || say "what is not committed is not tried"
+
+folder=$(mktemp -d)
+# Nothing is mounted out here, so nothing but files can be removed.
+trap 'rm -rf --one-file-system "$folder"' EXIT
+trap 'exit 130' INT
+trap 'exit 143' TERM HUP
+
+# README's first shell block, without its comments.
+awk '/^```sh$/ { inside = 1; next } /^```$/ { if (inside) exit } inside' README.md |
+    sed 's/ *#.*//' | grep . >"$folder/commands"
+.venv/bin/python tools/digests.py >"$folder/here"
+
+failed=0
+for suite in "$@"; do
+    mkdir "$folder/$suite"
+    cp "$folder/commands" "$folder/here" "$folder/$suite"
+    # In the background, so that a signal is heard at once.
+    unshare --mount --pid --fork --kill-child "$0" --inside "$suite" "$folder/$suite" &
+    if wait $!; then cat "$folder/$suite/told" >>"$folder/told"; else failed=1; echo "bare: $suite FAILED" >>"$folder/told"; fi
+    rm -rf --one-file-system "${folder:?}/$suite"
+done
+cat "$folder/told" >&2
+exit $failed
