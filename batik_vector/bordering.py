@@ -172,8 +172,8 @@ class _Maker:
         for name, ink in self.inks.items():
             marks = closed(together(self.marks[name]), ink.overlap != Overlap.OVERLAY)
             areas = oriented(marks.areas) if len(marks.areas) else marks.areas
-            area_names = tuple(names[code] for code in marks.area_codes)
-            line_names = tuple(names[code] for code in marks.line_codes)
+            area_names = tuple(map(names.__getitem__, marks.area_codes))
+            line_names = tuple(map(names.__getitem__, marks.line_codes))
             found.append(Layer(ink, to_mm(areas), to_mm(marks.lines), area_names, line_names))
         return tuple(layer for layer in found if len(layer.areas) or len(layer.lines))
 

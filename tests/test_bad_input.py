@@ -11,10 +11,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from click.testing import CliRunner, Result
+from click.testing import Result
 
 from batik_vector.cli import cli
 from batik_vector.errors import ExportError, SeamError
+from tests.calling import runner
 
 BASE = """\
 title = "Test"
@@ -70,7 +71,7 @@ def desk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
 
 
 def call(*args: str, folder: str = "out") -> Result:
-    return CliRunner().invoke(cli, ["compile", "-o", folder, *args])
+    return runner().invoke(cli, ["compile", "-o", folder, *args])
 
 
 def complaints(result: Result, code: int = 2) -> list[str]:
@@ -196,7 +197,7 @@ USAGE: list[tuple[str, list[str], str]] = [
 
 @pytest.mark.parametrize(("args", "expected"), [case[1:] for case in USAGE], ids=[case[0] for case in USAGE])
 def test_a_call_that_makes_no_sense(desk: Path, args: list[str], expected: str) -> None:
-    result = CliRunner().invoke(cli, args)
+    result = runner().invoke(cli, args)
     assert result.exit_code == 2
     assert expected in result.stderr
 

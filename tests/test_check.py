@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from click.testing import CliRunner, Result
+from click.testing import Result
 
 from batik_vector.certificate import Limits
 from batik_vector.cli import cli
@@ -17,6 +17,7 @@ from batik_vector.compiler import compile_recipe
 from batik_vector.export import write_artwork
 from batik_vector.recipe import load_recipe
 from batik_vector.tiling.field import with_bleed
+from tests.calling import runner
 from tests.test_bad_input import BASE
 
 TILES = Path(__file__).parent / "certificate" / "broken"
@@ -50,7 +51,7 @@ BROKEN: dict[str, tuple[str, str, tuple[float, float], float]] = {
 
 
 def call(*args: str | Path) -> Result:
-    return CliRunner().invoke(cli, ["check", *map(str, args)])
+    return runner().invoke(cli, ["check", *map(str, args)])
 
 
 def checked(*args: str | Path, code: int = 0) -> dict[str, Any]:
@@ -182,7 +183,7 @@ def test_limits_can_be_widened() -> None:
 
 
 def test_the_help_tells_the_true_defaults() -> None:
-    words = " ".join(CliRunner().invoke(cli, ["check", "--help"]).stdout.split())
+    words = " ".join(runner().invoke(cli, ["check", "--help"]).stdout.split())
     for name in ("position", "tangent", "near", "thin", "double"):
         default = re.search(rf"--{name} [A-Z]+ [^\[]*\[default: ([\d.]+)\]", words)
         assert default, name
@@ -204,7 +205,7 @@ def test_pointers_show_each_fault_in_a_drawing_of_its_own(desk: Path) -> None:
 
 def compiled(*lines: str, name: str = "k") -> str:
     Path(f"{name}.toml").write_text(CROSSING[: CROSSING.index("[[output]]")] + "\n".join(lines))
-    assert CliRunner().invoke(cli, ["compile", f"{name}.toml"]).exit_code == 0
+    assert runner().invoke(cli, ["compile", f"{name}.toml"]).exit_code == 0
     return f"{name}.svg"
 
 
@@ -284,7 +285,7 @@ size = ["40 mm", "40 mm"]
 @pytest.mark.parametrize("output", ["", '[[output]]\nformat = "svg"\nrepeat = [2, 3]'])
 def test_a_border_meant_to_run_along_the_seam_is_no_fault(desk: Path, output: str) -> None:
     Path("k.toml").write_text(SQUARE + output)
-    assert CliRunner().invoke(cli, ["compile", "k.toml"]).exit_code == 0
+    assert runner().invoke(cli, ["compile", "k.toml"]).exit_code == 0
     assert checked("k.svg")["passed"]
     # Without its recipe nobody knows that it is meant.
     text = re.sub("<metadata>.*</metadata>", "", Path("k.svg").read_text("utf-8"), flags=re.DOTALL)
@@ -327,7 +328,7 @@ def test_a_recipe_that_cannot_be_read_leaves_a_drawing(desk: Path) -> None:
 @pytest.mark.parametrize("suffix", ["pdf", "dxf", "png"])
 def test_of_other_formats_the_recipe_is_checked_and_said_to_be(desk: Path, suffix: str) -> None:
     Path("k.toml").write_text(CROSSING)
-    CliRunner().invoke(cli, ["compile", "k.toml", "-f", suffix])
+    runner().invoke(cli, ["compile", "k.toml", "-f", suffix])
     facts = checked(f"k.{suffix}")
     assert (facts["checked"], facts["cell_mm"]) == ("recipe", [640.0, 320.0])
     assert facts["notes"] == ["the recipe that it carries was checked, not what the file draws"]

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from click.testing import CliRunner, Result
+from click.testing import Result
 
 import batik_vector
 from batik_vector import export
@@ -20,11 +20,12 @@ from batik_vector.cli import FORMATS, KINDS, cli
 from batik_vector.compiler import inspect
 from batik_vector.outputs import OUTPUTS
 from batik_vector.starting import STARTERS
+from tests.calling import runner
 from tests.test_bad_input import BASE
 
 
 def call(*args: str) -> Result:
-    return CliRunner().invoke(cli, args)
+    return runner().invoke(cli, args)
 
 
 def good(*args: str) -> Result:

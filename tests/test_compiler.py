@@ -47,7 +47,8 @@ def spread(z: NDArray[np.complex128], level: int, dist: float, shift: complex) -
 def chords(lines: NDArray[np.object_]) -> NDArray[np.object_]:
     """Return the stretches between the vertices of lines, each a line of its own."""
     xy, of = shapely.get_coordinates(lines, return_index=True)
-    return shapely.linestrings(np.stack([xy[:-1], xy[1:]], axis=1)[of[:-1] == of[1:]])
+    made: NDArray[np.object_] = shapely.linestrings(np.stack([xy[:-1], xy[1:]], axis=1)[of[:-1] == of[1:]])
+    return made
 
 
 @pytest.mark.parametrize("level", [1, 2, 3])

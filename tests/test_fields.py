@@ -146,7 +146,7 @@ def test_curves_of_ones_own_are_made_with_and_without_deferred_annotations(
     name = f"own_{bool(future)}".lower()
     (tmp_path / f"{name}.py").write_text(future + OWN, encoding="utf-8")
     monkeypatch.syspath_prepend(tmp_path)
-    own = importlib.import_module(name)
+    own: Any = importlib.import_module(name)
     tile = TileSpec(size=(100.0, 100.0))
     place = (Placement(motif="star", layout=Ring(count=6, radius=2.2), width=90.0),)
     recipe = Recipe(motif={"star": own.star}, place=place, ink={"wax": InkSpec()}, tile=tile)
@@ -155,4 +155,4 @@ def test_curves_of_ones_own_are_made_with_and_without_deferred_annotations(
         own.Heart(width=99)
     with pytest.raises(GeometryError, match=r"height = 0, expected 0\.1 to 10"):
         own.Broad(height=0)
-    assert hint_of(own.Broad, "later").__origin__ == tuple[own.Late, ...]
+    assert hint_of(own.Broad, "later").__origin__.__args__ == (own.Late, ...)

@@ -29,13 +29,13 @@ if [ "${1:-}" = --inside ]; then
     cp --dereference /etc/resolv.conf "$root/etc/resolv.conf"
     ! [ -e /etc/ssl/certs/ca-certificates.crt ] ||
         cp --dereference /etc/ssl/certs/ca-certificates.crt "$root/etc/ssl/certs/ca-certificates.crt"
-    git clone --quiet --no-hardlinks . "$root/root/batik_vector"
-    cp "$folder/here" "$root/root/here"
-    kept=(HOME=/root LANG=C.UTF-8 PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin)
+    git clone --quiet --no-hardlinks . "$root/srv/batik_vector"
+    cp "$folder/here" "$root/srv/here"
+    kept=(HOME=/srv LANG=C.UTF-8 PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin)
     for name in http_proxy https_proxy no_proxy; do
         if [ -n "${!name:-}" ]; then kept+=("$name=${!name}"); fi
     done
-    in_it() { chroot "$root" env -i "${kept[@]}" sh -c "cd /root/batik_vector && $1" </dev/null; }
+    in_it() { chroot "$root" env -i "${kept[@]}" sh -c "cd /srv/batik_vector && $1" </dev/null; }
     say "$suite: $(in_it 'python3 --version')"
     told="$suite: $(in_it 'python3 -c "import sys; print(sys.version.split()[0])"')"
     while read -r command; do
@@ -43,7 +43,7 @@ if [ "${1:-}" = --inside ]; then
         in_it "$command" || fail "$suite: $command failed"
         told+=", $command $((SECONDS - began)) s"
     done <"$folder/commands"
-    bytes=$(in_it '.venv/bin/python tools/digests.py --against /root/here' 2>&1) || fail "$suite: $bytes"
+    bytes=$(in_it '.venv/bin/python tools/digests.py --against /srv/here' 2>&1) || fail "$suite: $bytes"
     echo "bare: $told, $bytes" >>"$folder/told"
     exit 0
 fi

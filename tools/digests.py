@@ -1,8 +1,8 @@
 """Prints the sha256 of what every sample compiles to: ``<sha256>  four-square.svg``, one line each.
 
-SVG and DXF are the same wherever the package is the same. PDFs are packed by zlib, whose version is named with
-them: ``four-square.pdf (zlib 1.3.1)``. ``--against FILE`` prints nothing but what differs from an earlier
-list, and fails where anything does.
+SVG and DXF are the same wherever the package is the same. PDFs are packed by zlib, whose version is named
+with them: ``four-square.pdf (zlib 1.3.1)``. ``--against FILE`` prints nothing but what differs from an
+earlier list, and fails where anything does.
 """
 
 from __future__ import annotations

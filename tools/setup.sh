@@ -83,7 +83,7 @@ environment() { # folder
             system_needs "$("$python" -c 'import sys; print("python{}.{}-venv".format(*sys.version_info))')"
         step "making $1" "$python" -m venv --clear "$1"
     fi
-    step "beginning in $1" touch "$1/.unfinished"
+    touch "$1/.unfinished" 2>"$log" || because "beginning in $1"
 }
 
 pip_install() { # folder, arguments…
@@ -99,7 +99,6 @@ python_known() {
 }
 
 package_ready() { # pip's further arguments…
-    environment "$venv"
     step "installing the package and its tools into $venv (pip)" pip_install "$venv" "$@" --editable '.[dev]'
     # Cairo is the one library that no wheel brings along.
     "$venv/bin/python" -c 'import cairosvg' 2>/dev/null || system_needs libcairo2
@@ -109,6 +108,7 @@ package_ready() { # pip's further arguments…
 
 python_ready() {
     python_known
+    environment "$venv"
     package_ready
 }
 

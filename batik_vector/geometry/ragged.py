@@ -35,7 +35,7 @@ class Ragged:
             return Ragged(shapely.get_coordinates(geometries), _ends(geometries), None)
         if not (kinds == shapely.GeometryType.POLYGON).all():
             raise ValueError("expected polygons, or polylines")
-        rings, owner = shapely.get_rings(geometries, return_index=True)
+        rings, owner = shapely.get_rings(writable(geometries), return_index=True)
         polygons = np.searchsorted(owner, np.arange(len(geometries) + 1))
         return Ragged(shapely.get_coordinates(rings), _ends(rings), polygons)
 
@@ -64,6 +64,11 @@ class Ragged:
             (_repeated(self.rings, len(places)), _repeated(self.polygons, len(places))),
         )
         return np.asarray(made, dtype=object)
+
+
+def writable(geometries: Geometries) -> Geometries:
+    """Return geometries in an array that may be written: shapely before 2.2 takes no other apart."""
+    return geometries if geometries.flags.writeable else geometries.copy()
 
 
 def _ends(lines: Geometries) -> Indices:

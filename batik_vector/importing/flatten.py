@@ -150,9 +150,12 @@ def _roots(coefficients: Points) -> tuple[Indices, Points]:
     value = _bernstein(coefficients[:, None, :], t)
     # What begins or ends on the edge does not cross it there.
     sign = np.where(np.abs(value) <= SNAP_MM, 0, np.sign(value))
-    own, at = np.nonzero(sign[:, :-1] * sign[:, 1:] < 0)
-    low, high = t[at], t[at + 1]
-    rising = value[own, at] < 0
+    # A place that falls on the edge itself is passed over: what counts is the side on which it was last.
+    last = np.maximum.accumulate(np.where(sign != 0, np.arange(SAMPLES), 0), axis=1)
+    own, at = np.nonzero(np.take_along_axis(sign, last, axis=1)[:, :-1] * sign[:, 1:] < 0)
+    since = last[own, at]
+    low, high = t[since], t[at + 1]
+    rising = value[own, since] < 0
     for _ in range(HALVINGS):
         middle = (low + high) / 2
         below = (_bernstein(coefficients[own], middle) < 0) == rising

@@ -164,10 +164,11 @@ def in_corners(marks: Outlines, mark: Index, shift: Steps, filling: Filling, lin
     low, high = at[:, None, :2], at[:, None, 2:]
     bare = shapely.bounds(filling.corners)
     beside = np.all((low <= bare[:, 2:]) & (high >= bare[:, :2]), axis=2)
-    near = np.flatnonzero(np.any(beside, axis=1))
-    shapes = _shapes(marks.taken(mark[near], shift[near]), line)
-    into = shapely.relate_pattern(shapes[:, None], filling.corners, "T********")
-    return near[np.any(into, axis=1)]
+    copy, corner = np.nonzero(beside)
+    # In pairs: shapely before 2.2 refuses a pattern for arrays of different shapes.
+    shapes = _shapes(marks.taken(mark[copy], shift[copy]), line)
+    into = shapely.relate_pattern(shapes, filling.corners[corner], "T********")
+    return np.unique(copy[into])
 
 
 def _shapes(marks: Outlines, line: bool) -> Geometries:

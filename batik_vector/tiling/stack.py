@@ -276,6 +276,6 @@ def _layer(ink: Ink, stock: Stock, areas: Laid, lines: Lines, names: Sequence[st
         ink,
         polygons,
         to_mm(lines[0]),
-        tuple(names[i] for i in areas.sheet),
-        tuple(names[i] for i in lines[1]),
+        tuple(map(names.__getitem__, areas.sheet)),
+        tuple(map(names.__getitem__, lines[1])),
     )

@@ -188,7 +188,7 @@ def test_guides_stand_on_every_plate_and_no_pen_draws_them() -> None:
     page = InPieces(sample(2.0), guides=guides(), own_margins=Margins(5_000, 7_000, 9_000, 11_000))
     opened = pikepdf.open(io.BytesIO(pdf.render(page, PdfOptions(inks="spot"))))  # type: ignore[arg-type]
     spaces = opened.pages[0].Resources.ColorSpace
-    assert [str(space[1]) for space in spaces.values()][-1] == "/All"
+    assert [str(space[1]) for _, space in spaces.items()][-1] == "/All"
     with_layers = svg_layers(svg.render(page))
     assert list(with_layers)[-1] == "%marks"
     drawing = opened_dxf(dxf.render(page))

@@ -163,4 +163,5 @@ def test_an_empty_artwork_is_a_page() -> None:
     document = opened(empty(), cloth=False)
     assert len(document.pages) == 1
     assert "/OCProperties" not in document.Root
-    assert not document.check_pdf_syntax()
+    # pikepdf before 10 calls it by another name.
+    assert not (document.check_pdf_syntax if hasattr(document, "check_pdf_syntax") else document.check)()

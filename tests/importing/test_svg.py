@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from batik_vector.artwork import Artwork, Layer, Overlap
@@ -262,6 +262,8 @@ STEM = "M{0} 40C{1} 20 {2} 70 {3} 60"
 
 @settings(derandomize=True, max_examples=40, deadline=None)
 @given(st.floats(-9, -1), st.floats(1, 20), st.floats(-30, 30), st.floats(0.3, 3))
+@example(-1.0, 1.0, 0.0, 1.0)  # crosses in its middle, where it is looked at
+@example(-9.0, 9.0, 18.0, 1.0)
 def test_a_curve_and_its_twin_cross_the_seam_at_the_same_place(
     left: float, right: float, lean: float, scale: float
 ) -> None:
