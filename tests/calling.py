@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import inspect
+from typing import Any
 
 from click.testing import CliRunner
 
 
 def runner() -> CliRunner:
     """Return a runner that keeps stdout and stderr apart: click before 8.2 mixes them unless it is told."""
-    apart = {"mix_stderr": False} if "mix_stderr" in inspect.signature(CliRunner).parameters else {}
+    told = "mix_stderr" in inspect.signature(CliRunner).parameters
+    apart: dict[str, Any] = {"mix_stderr": False} if told else {}
     return CliRunner(**apart)

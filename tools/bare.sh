@@ -29,7 +29,7 @@ if [ "${1:-}" = --inside ]; then
     cp --dereference /etc/resolv.conf "$root/etc/resolv.conf"
     ! [ -e /etc/ssl/certs/ca-certificates.crt ] ||
         cp --dereference /etc/ssl/certs/ca-certificates.crt "$root/etc/ssl/certs/ca-certificates.crt"
-    git clone --quiet --no-hardlinks . "$root/srv/batik_vector"
+    cp -r "$folder/clone" "$root/srv/batik_vector"
     cp "$folder/here" "$root/srv/here"
     kept=(HOME=/srv LANG=C.UTF-8 PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin)
     for name in http_proxy https_proxy no_proxy; do
@@ -63,12 +63,14 @@ trap 'exit 143' TERM HUP
 # README's first shell block, without its comments.
 awk '/^```sh$/ { inside = 1; next } /^```$/ { if (inside) exit } inside' README.md |
     sed 's/ *#.*//' | grep . >"$folder/commands"
+# One commit for all suites, whatever is committed meanwhile.
+git clone --quiet --no-hardlinks . "$folder/clone"
 .venv/bin/python tools/digests.py >"$folder/here"
 
 failed=0
 for suite in "$@"; do
     mkdir "$folder/$suite"
-    cp "$folder/commands" "$folder/here" "$folder/$suite"
+    cp -r "$folder/commands" "$folder/here" "$folder/clone" "$folder/$suite"
     # In the background, so that a signal is heard at once.
     unshare --mount --pid --fork --kill-child "$0" --inside "$suite" "$folder/$suite" &
     if wait $!; then cat "$folder/$suite/told" >>"$folder/told"; else failed=1; echo "bare: $suite FAILED" >>"$folder/told"; fi

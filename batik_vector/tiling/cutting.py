@@ -165,7 +165,7 @@ def in_corners(marks: Outlines, mark: Index, shift: Steps, filling: Filling, lin
     bare = shapely.bounds(filling.corners)
     beside = np.all((low <= bare[:, 2:]) & (high >= bare[:, :2]), axis=2)
     copy, corner = np.nonzero(beside)
-    # In pairs: shapely before 2.2 refuses a pattern for arrays of different shapes.
+    # In pairs: with NumPy 1 shapely refuses a pattern for arrays that broadcast to a table.
     shapes = _shapes(marks.taken(mark[copy], shift[copy]), line)
     into = shapely.relate_pattern(shapes, filling.corners[corner], "T********")
     return np.unique(copy[into])

@@ -164,4 +164,5 @@ def test_an_empty_artwork_is_a_page() -> None:
     assert len(document.pages) == 1
     assert "/OCProperties" not in document.Root
     # pikepdf before 10 calls it by another name.
-    assert not (document.check_pdf_syntax if hasattr(document, "check_pdf_syntax") else document.check)()
+    check: Any = getattr(document, "check_pdf_syntax", None) or getattr(document, "check", None)
+    assert not check()
