@@ -55,8 +55,14 @@ unshare --mount --pid --fork true 2>/dev/null || fail "this system lets nobody m
 [ -z "$(git status --porcelain 2>/dev/null)" ] || say "what is not committed is not tried"
 
 folder=$(mktemp -d)
-# Nothing is mounted out here, so nothing but files can be removed.
-trap 'rm -rf --one-file-system "$folder"' EXIT
+child=
+# The namespaces end with the process that holds them, which hears nothing milder. Nothing is mounted out here,
+# so only files are removed.
+finish() {
+    if [ -n "$child" ] && kill -KILL "$child" 2>/dev/null; then wait "$child" 2>/dev/null || true; fi
+    rm -rf --one-file-system "$folder"
+}
+trap finish EXIT
 trap 'exit 130' INT
 trap 'exit 143' TERM HUP
 
@@ -73,7 +79,14 @@ for suite in "$@"; do
     cp -r "$folder/commands" "$folder/here" "$folder/clone" "$folder/$suite"
     # In the background, so that a signal is heard at once.
     unshare --mount --pid --fork --kill-child "$0" --inside "$suite" "$folder/$suite" &
-    if wait $!; then cat "$folder/$suite/told" >>"$folder/told"; else failed=1; echo "bare: $suite FAILED" >>"$folder/told"; fi
+    child=$!
+    if wait "$child"; then
+        cat "$folder/$suite/told" >>"$folder/told"
+    else
+        failed=1
+        echo "bare: $suite FAILED" >>"$folder/told"
+    fi
+    child=
     rm -rf --one-file-system "${folder:?}/$suite"
 done
 cat "$folder/told" >&2
