@@ -21,12 +21,10 @@ if TYPE_CHECKING:
     from batik_vector.artwork import Ink as Ink
     from batik_vector.artwork import Layer as Layer
     from batik_vector.artwork import violations as violations
-    from batik_vector.borderspec import BorderSpec as BorderSpec
-    from batik_vector.borderspec import RailSpec as RailSpec
     from batik_vector.certificate import Certificate as Certificate
     from batik_vector.certificate import certify as certify
-    from batik_vector.compiler import compile_cloth as compile_cloth
-    from batik_vector.compiler import compile_recipe as compile_recipe
+    from batik_vector.compiling.compiler import compile_cloth as compile_cloth
+    from batik_vector.compiling.compiler import compile_recipe as compile_recipe
     from batik_vector.errors import BatikError as BatikError
     from batik_vector.errors import ExportError as ExportError
     from batik_vector.errors import Fault as Fault
@@ -38,23 +36,25 @@ if TYPE_CHECKING:
     from batik_vector.errors import UnknownNameError as UnknownNameError
     from batik_vector.errors import UnsupportedByFormatError as UnsupportedByFormatError
     from batik_vector.export import write_artwork as write_artwork
-    from batik_vector.model import ClothSpec as ClothSpec
-    from batik_vector.model import InkSpec as InkSpec
-    from batik_vector.model import Placement as Placement
-    from batik_vector.model import Recipe as Recipe
-    from batik_vector.model import TileSpec as TileSpec
-    from batik_vector.model import YardageSpec as YardageSpec
-    from batik_vector.motif import Element as Element
-    from batik_vector.motif import Flower as Flower
-    from batik_vector.motif import Rosette as Rosette
-    from batik_vector.recipe import load_recipe as load_recipe
-    from batik_vector.recipe import read_recipe as read_recipe
+    from batik_vector.recipe.border import BorderSpec as BorderSpec
+    from batik_vector.recipe.border import RailSpec as RailSpec
+    from batik_vector.recipe.loading import load_recipe as load_recipe
+    from batik_vector.recipe.loading import read_recipe as read_recipe
+    from batik_vector.recipe.model import ClothSpec as ClothSpec
+    from batik_vector.recipe.model import InkSpec as InkSpec
+    from batik_vector.recipe.model import Placement as Placement
+    from batik_vector.recipe.model import Recipe as Recipe
+    from batik_vector.recipe.model import TileSpec as TileSpec
+    from batik_vector.recipe.model import YardageSpec as YardageSpec
+    from batik_vector.recipe.motif import Element as Element
+    from batik_vector.recipe.motif import Flower as Flower
+    from batik_vector.recipe.motif import Rosette as Rosette
 
 _HOMES = {
     "batik_vector.artwork": ("Artwork", "Cell", "Ink", "Layer", "violations"),
-    "batik_vector.borderspec": ("BorderSpec", "RailSpec"),
+    "batik_vector.recipe.border": ("BorderSpec", "RailSpec"),
     "batik_vector.certificate": ("Certificate", "certify"),
-    "batik_vector.compiler": ("compile_cloth", "compile_recipe"),
+    "batik_vector.compiling.compiler": ("compile_cloth", "compile_recipe"),
     "batik_vector.errors": (
         "BatikError",
         "ExportError",
@@ -68,9 +68,9 @@ _HOMES = {
         "UnsupportedByFormatError",
     ),
     "batik_vector.export": ("write_artwork",),
-    "batik_vector.model": ("ClothSpec", "InkSpec", "Placement", "Recipe", "TileSpec", "YardageSpec"),
-    "batik_vector.motif": ("Element", "Flower", "Rosette"),
-    "batik_vector.recipe": ("load_recipe", "read_recipe"),
+    "batik_vector.recipe.model": ("ClothSpec", "InkSpec", "Placement", "Recipe", "TileSpec", "YardageSpec"),
+    "batik_vector.recipe.motif": ("Element", "Flower", "Rosette"),
+    "batik_vector.recipe.loading": ("load_recipe", "read_recipe"),
 }
 _HOME = {name: home for home, names in _HOMES.items() for name in names}
 

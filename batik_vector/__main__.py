@@ -1,5 +1,5 @@
 """``python -m batik_vector`` is the command."""
 
-from batik_vector.cli import main
+from batik_vector.command.cli import main
 
 main()

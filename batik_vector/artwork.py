@@ -30,8 +30,8 @@ import shapely
 from numpy.typing import NDArray
 
 from batik_vector.errors import ExportError, GeometryError
-from batik_vector.outlines import MM, Outlines, of_polygons, of_polylines
-from batik_vector.units import GRID_MM, STEPS_PER_MM, on_grid
+from batik_vector.geometry.outlines import MM, Outlines, of_polygons, of_polylines
+from batik_vector.units import GRID_MM, STEPS_PER_MM, nearest_steps, on_grid
 from batik_vector.values import frozen
 
 Geometries = NDArray[np.object_]
@@ -387,11 +387,11 @@ def _line_violations(lines: Geometries) -> Iterator[str]:
         yield "a line is no polyline, or empty"
         return
     coords, owner = shapely.get_coordinates(lines, return_index=True)
-    step = np.rint((coords[1:] - coords[:-1]) * STEPS_PER_MM)
+    step = nearest_steps(coords[1:] - coords[:-1])
     inside = owner[1:] == owner[:-1]
     if (inside & (step == 0).all(axis=1)).any():
         yield "a line has a step of length zero"
-    ends = np.rint(np.hstack([coords[:-1], coords[1:]])[inside] * STEPS_PER_MM).astype(np.int64)
+    ends = nearest_steps(np.hstack([coords[:-1], coords[1:]])[inside]).astype(np.int64)
     flip = (ends[:, 0] > ends[:, 2]) | ((ends[:, 0] == ends[:, 2]) & (ends[:, 1] > ends[:, 3]))
     ends[flip] = ends[flip][:, [2, 3, 0, 1]]
     twice = len(ends) - len(np.unique(ends, axis=0))

@@ -69,8 +69,13 @@ def to_steps(mm: float) -> int:
     return round(mm * STEPS_PER_MM)
 
 
-def on_grid(mm: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return coordinates in mm moved to the nearest grid point, each the float ``k / 1000``."""
+def nearest_steps(mm: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the whole numbers of grid steps, as floats, nearest to coordinates in mm."""
     import numpy as np
 
-    return np.rint(mm * STEPS_PER_MM) / STEPS_PER_MM
+    return np.rint(mm * STEPS_PER_MM)
+
+
+def on_grid(mm: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return coordinates in mm moved to the nearest grid point, each the float ``k / 1000``."""
+    return nearest_steps(mm) / STEPS_PER_MM

@@ -14,9 +14,9 @@ import numpy as np
 import shapely
 
 from batik_vector.artwork import Artwork
-from batik_vector.compiler import compile_recipe
+from batik_vector.compiling.compiler import compile_recipe
 from batik_vector.export import write_artwork
-from batik_vector.recipe import read_recipe
+from batik_vector.recipe.loading import read_recipe
 from benchmarks.drawing import RING, recipe
 from benchmarks.peers.drawn import WARM, let_go, tell, timed
 

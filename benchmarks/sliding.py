@@ -19,10 +19,10 @@ from pathlib import Path
 from types import MappingProxyType
 
 from batik_vector.artwork import Artwork
-from batik_vector.compiler import compile_cloth, compile_recipe
+from batik_vector.compiling.compiler import compile_cloth, compile_recipe
 from batik_vector.export import write_artwork
-from batik_vector.model import Recipe, YardageSpec
-from batik_vector.recipe import load_recipe, read_recipe
+from batik_vector.recipe.loading import load_recipe, read_recipe
+from batik_vector.recipe.model import Recipe, YardageSpec
 from benchmarks.contests import FORMATS, SLIDER_KNOBS
 from benchmarks.peers.drawn import Part, tell, timed
 

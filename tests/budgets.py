@@ -23,12 +23,13 @@ import numpy as np
 import pytest
 import shapely
 
-from batik_vector import motif, placing
+from batik_vector.compiling import placements
 from batik_vector.geometry.curves import Circle
-from batik_vector.model import InkSpec, Placement, Recipe
-from batik_vector.motif import Element, Motif, Rosette
-from batik_vector.tiling.cells import TileSpec
+from batik_vector.recipe import motif
+from batik_vector.recipe.model import InkSpec, Placement, Recipe
+from batik_vector.recipe.motif import Element, Motif, Rosette
 from batik_vector.tiling.layouts import Lattice
+from batik_vector.tiling.symmetry.repeats import TileSpec
 
 PACKAGE = str(Path(__file__).resolve().parents[1] / "batik_vector")
 ROOM = 1.3
@@ -179,7 +180,7 @@ def peak_bytes(call: Callable[[], object]) -> int:
 
 def cold() -> None:
     """Forget what earlier compilations drew."""
-    placing._kept.clear()
+    placements._kept.clear()
     motif._copied.cache_clear()
     motif._alone.cache_clear()
 

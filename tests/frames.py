@@ -9,14 +9,14 @@ from hypothesis import HealthCheck, Phase, settings
 from hypothesis import strategies as st
 
 from batik_vector.artwork import Artwork, Cell, Layer, Overlap, violations
-from batik_vector.bordering import Bordered
-from batik_vector.borderspec import BorderSpec, ClothSide, Corner, Ends, Facing, RailSpec
+from batik_vector.compiling.borders import Bordered
 from batik_vector.geometry.curves import Circle, Curve, FunctionCurve, Petal, Superellipse
 from batik_vector.geometry.sampling import Array, Points
-from batik_vector.model import InkSpec, Placement, Recipe
-from batik_vector.motif import Element, Rosette, Treatment
-from batik_vector.tiling.cells import TileSpec
-from batik_vector.tiling.friezes import FRIEZES
+from batik_vector.recipe.border import BorderSpec, ClothSide, Corner, Ends, Facing, RailSpec
+from batik_vector.recipe.model import InkSpec, Placement, Recipe
+from batik_vector.recipe.motif import Element, Rosette, Treatment
+from batik_vector.tiling.symmetry.friezes import FRIEZES
+from batik_vector.tiling.symmetry.repeats import TileSpec
 
 many = settings(
     max_examples=24,

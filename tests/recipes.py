@@ -21,11 +21,8 @@ from batik_vector.geometry.curves import (
     Star,
     Superellipse,
 )
-from batik_vector.model import InkSpec, Placement, Recipe
-from batik_vector.motif import Element, Rosette, Treatment
-from batik_vector.tiling.cells import MIRRORS, Cut, TileSpec, repeat_of
-from batik_vector.tiling.fitting import Fit
-from batik_vector.tiling.groups import GROUPS
+from batik_vector.recipe.model import InkSpec, Placement, Recipe
+from batik_vector.recipe.motif import Element, Rosette, Treatment
 from batik_vector.tiling.layouts import (
     Clear,
     Free,
@@ -40,7 +37,10 @@ from batik_vector.tiling.layouts import (
     Stripes,
     Toss,
 )
-from batik_vector.tiling.symmetry import Spread
+from batik_vector.tiling.symmetry.groups import GROUPS
+from batik_vector.tiling.symmetry.machine_fit import Fit
+from batik_vector.tiling.symmetry.repeats import MIRRORS, Cut, TileSpec, repeat_of
+from batik_vector.tiling.symmetry.spread import Spread
 
 small = st.floats(0.2, 1.5)
 

@@ -9,7 +9,7 @@ import pytest
 import shapely
 
 from batik_vector.artwork import Artwork, Cell, Ink, Layer, Overlap, violations
-from batik_vector.compiler import inspect
+from batik_vector.compiling.compiler import inspect
 
 INK = Ink("wax", "#f4efe2")
 SQUARE = shapely.box(1, 1, 4, 4)

@@ -9,50 +9,57 @@ import re
 import subprocess
 import sys
 from collections.abc import Iterator, Mapping
-from graphlib import TopologicalSorter
+from graphlib import CycleError, TopologicalSorter
 from importlib import import_module
 from pathlib import Path
+from typing import TypeAlias
 
 import pytest
 
 from batik_vector.export import FORMATS
 from batik_vector.geometry.curves import CURVES, Curve
 from batik_vector.geometry.maps import VARIATIONS, Variation
-from batik_vector.motif import MOTIFS
+from batik_vector.recipe.motif import MOTIFS
 from batik_vector.tiling.layouts import LAYOUTS
 
 ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "batik_vector"
 
-FLOORS: tuple[frozenset[str], ...] = tuple(
-    frozenset(rooms.split())
-    for rooms in (
-        "_version values patterns",
-        "errors",
-        "units",
-        "fields references outlines",
-        "geometry artwork",
-        "motif tiling export",
-        "outputs importing certificate",
-        "placement",
-        "borderspec grounds spreading",
-        "model",
-        "placing",
-        "bordering",
-        "reading",
-        "compiler recipe",
-        "schema starting starters",
-        "jobs promises telling",
-        "checking",
-        "cli",
-        "__main__ __init__",
-    )
+Floors: TypeAlias = tuple[frozenset[str], ...]
+
+
+def floors(*rooms: str) -> Floors:
+    return tuple(frozenset(each.split()) for each in rooms)
+
+
+FLOORS: Floors = floors(
+    "_version values patterns",
+    "errors units",
+    "fields",
+    "geometry",
+    "artwork",
+    "tiling export",
+    "recipe importing certificate",
+    "compiling",
+    "command",
+    "__init__ __main__",
 )
 """Rooms of the package, the ground floor first: each may look at those below it, and at nothing else. So
 rooms on one floor never meet: tiling and export, geometry and artwork."""
 
-DOORBELLS = {("artwork", "export")}
-"""Imports that run upward on purpose, inside a function: a notebook asks an artwork for its picture."""
+WINGS: dict[str, Floors] = {
+    "tiling": floors("layouts", "torus", "welding tossing", "symmetry cloth borders"),
+    "geometry": floors(
+        "sampling outlines", "ragged curves regions stretches", "bezier maps", "coincidence", "ifs"
+    ),
+}
+"""The rooms within a room, likewise."""
+
+DOORBELL = ("batik_vector.artwork", "batik_vector.export.svg")
+"""The one import that runs upward, inside a function: a notebook asks an artwork for its picture."""
+
+MOST_FILES, MOST_ROOMS, FULL = 10, 12, 26
+"""How many files and rooms the package's top may hold, and how many files a room."""
 
 MODULES = sorted(PACKAGE.rglob("*.py"))
 
@@ -62,9 +69,10 @@ def name_of(path: Path) -> str:
     return ".".join(parts[:-1] if parts[-1] == "__init__" and len(parts) > 2 else parts)
 
 
-def room_of(module: str) -> str:
-    """``batik_vector.export.svg`` → export; the package's own front door is ``__init__``."""
-    return module.split(".")[1] if "." in module else "__init__"
+def room_of(module: str, wing: str = "") -> str:
+    """``batik_vector.export.svg`` → export; the front door of the package, or of a wing, is ``__init__``."""
+    parts = module.split(".")[2 if wing else 1 :]
+    return parts[0] if parts else "__init__"
 
 
 def imports(path: Path, everywhere: bool = True) -> Iterator[str]:
@@ -86,40 +94,91 @@ def is_module(name: str) -> bool:
     return path.with_suffix(".py").exists() or (path / "__init__.py").exists()
 
 
-def upward(module: str, imported: Iterator[str]) -> list[str]:
-    """Return the imports that break the rules."""
-    heights = {room: height for height, rooms in enumerate(FLOORS) for room in rooms}
-    mine = room_of(module)
+def upward(module: str, imported: Iterator[str], wing: str = "") -> list[str]:
+    """Return the imports that break the rules: of the whole package, or those within a wing of it."""
+    heights = {room: height for height, rooms in enumerate(WINGS[wing] if wing else FLOORS) for room in rooms}
+    mine = room_of(module, wing)
     return [
         f"{module} imports {other}"
         for other in imported
-        if (room := room_of(other)) != mine
+        if (not wing or room_of(other) == wing)
+        and (room := room_of(other, wing)) not in (mine, "__init__" if wing else "")
         and heights[room] >= heights[mine]
-        and (mine, room) not in DOORBELLS
+        and (module, other) != DOORBELL
     ]
 
 
+def in_wing(wing: str) -> list[Path]:
+    return [path for path in MODULES if room_of(name_of(path)) == wing]
+
+
 def test_every_room_has_a_floor() -> None:
-    rooms = {room_of(name_of(path)) for path in MODULES}
-    known = frozenset().union(*FLOORS)
-    assert rooms <= known, f"give these a floor in {Path(__file__).name}: {sorted(rooms - known)}"
+    for wing, known in (("", FLOORS), *WINGS.items()):
+        paths = in_wing(wing) if wing else MODULES
+        rooms = {room_of(name_of(path), wing) for path in paths} - ({"__init__"} if wing else set())
+        assert rooms <= frozenset().union(*known), f"give these a floor in {Path(__file__).name}"
+        assert rooms >= frozenset().union(*known), "a floor without a room"
+    assert len(FLOORS) <= 10
 
 
 @pytest.mark.parametrize("path", MODULES, ids=name_of)
 def test_imports_run_downward(path: Path) -> None:
-    assert not upward(name_of(path), imports(path))
+    module = name_of(path)
+    assert not upward(module, imports(path))
+    wing = room_of(module)
+    if wing in WINGS and room_of(module, wing) != "__init__":
+        assert not upward(module, imports(path), wing)
 
 
 def test_an_upward_import_is_told() -> None:
-    assert upward("batik_vector.export.svg", iter(["batik_vector.tiling.seams"]))
+    assert upward("batik_vector.export.svg", iter(["batik_vector.tiling.torus.seams"]))
     assert upward("batik_vector.geometry.ifs", iter(["batik_vector.artwork"]))
-    assert upward("batik_vector.units", iter(["batik_vector.cli"]))
+    assert upward("batik_vector.units", iter(["batik_vector.command.cli"]))
     assert not upward("batik_vector.export.svg", iter(["batik_vector.artwork", "batik_vector.export.walk"]))
+    assert upward("batik_vector.tiling.torus.torus", iter(["batik_vector.tiling.welding.weld"]), "tiling")
+    assert not upward(
+        "batik_vector.tiling.cloth.filling", iter(["batik_vector.tiling.welding.weld"]), "tiling"
+    )
 
 
-def test_no_modules_import_each_other_in_a_circle() -> None:
-    graph = {name_of(path): set(imports(path, everywhere=False)) - {name_of(path)} for path in MODULES}
-    TopologicalSorter(graph).prepare()
+def circle_in(graph: Mapping[str, set[str]]) -> list[str]:
+    """Return the files of a circle of imports, or nothing."""
+    try:
+        TopologicalSorter(graph).prepare()
+    except CycleError as error:
+        return list(error.args[1])
+    return []
+
+
+def test_no_files_import_each_other_in_a_circle_inside_functions_neither() -> None:
+    graph = {name_of(path): set(imports(path)) - {name_of(path)} for path in MODULES}
+    assert DOORBELL[1] in graph[DOORBELL[0]]
+    assert DOORBELL[0] in circle_in(graph)
+    graph[DOORBELL[0]].remove(DOORBELL[1])
+    assert circle_in(graph) == []
+
+
+def test_no_room_is_a_warren() -> None:
+    tops = [path for path in PACKAGE.iterdir() if not path.name.startswith("__pycache__")]
+    assert sum(path.is_file() for path in tops) <= MOST_FILES
+    assert sum(path.is_dir() for path in tops) <= MOST_ROOMS
+    for folder in (PACKAGE, *(path for path in PACKAGE.rglob("*") if path.is_dir())):
+        held = [path for path in folder.iterdir() if path.is_file() and path.suffix != ".pyc"]
+        assert len(held) <= FULL, f"{folder.relative_to(ROOT)} holds {len(held)} files"
+
+
+def test_every_room_says_what_it_is_for() -> None:
+    for path in PACKAGE.rglob("__init__.py"):
+        words = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or ""
+        assert words.partition("\n")[0].endswith((".", ":")), f"{path.relative_to(ROOT)} has no sentence"
+
+
+def test_tests_stand_where_what_they_test_stands() -> None:
+    rooms = {path.parent.relative_to(PACKAGE) for path in MODULES}
+    beside = {Path("clients")}  # real programs, which are of no room
+    for path in (ROOT / "tests").rglob("test_*.py"):
+        room = path.parent.relative_to(ROOT / "tests")
+        assert room in rooms | beside, f"{path.relative_to(ROOT)}: there is no room {room}"
 
 
 CATALOGUES: dict[str, Mapping[str, type]] = {
@@ -177,7 +236,7 @@ def test_no_map_is_forgotten() -> None:
 
 @pytest.mark.parametrize(
     "statement",
-    ["import batik_vector", "import batik_vector.export.options", "import batik_vector.cli"],
+    ["import batik_vector", "import batik_vector.export.options", "import batik_vector.command.cli"],
 )
 def test_importing_is_cheap(statement: str) -> None:
     heavy = "('numpy', 'shapely', 'pydantic', 'svgwrite', 'cairosvg', 'ezdxf', 'pikepdf')"
@@ -193,10 +252,13 @@ UNUSED = (
     "ssl socket http.client urllib.request hashlib secrets tempfile",
     "pydantic annotated_types tomlkit tqdm cairosvg ezdxf pikepdf svgwrite.data.svgparser",
     # Cloths, borders, grounds and reports of a recipe that has none.
-    "batik_vector.bordering batik_vector.tiling.yardage batik_vector.tiling.field batik_vector.tiling.bands",
-    "batik_vector.tiling.toss batik_vector.tiling.stripes batik_vector.certificate batik_vector.checking",
+    "batik_vector.compiling.borders batik_vector.tiling.borders.bands",
+    "batik_vector.tiling.cloth.yardage batik_vector.tiling.cloth.field",
+    "batik_vector.tiling.tossing.toss batik_vector.tiling.torus.stripes",
+    "batik_vector.geometry.maps.images.areas batik_vector.certificate batik_vector.command.checks",
     "batik_vector.export.pdf batik_vector.export.dxf batik_vector.export.png",
-    "batik_vector.reading.slow batik_vector.reading.lines batik_vector.reading.overrides batik_vector.schema",
+    "batik_vector.recipe.reading.validator batik_vector.recipe.reading.lines",
+    "batik_vector.recipe.reading.overrides batik_vector.recipe.schema",
 )
 
 
@@ -216,7 +278,7 @@ def test_a_tile_is_compiled_to_svg_with_nothing_else_imported(tmp_path: Path) ->
         f"import atexit, numpy, shapely, sys; sys.argv = {call}\n"
         f"watched = [name for name in {names} if name not in sys.modules]\n"
         "atexit.register(lambda: print(*[name for name in watched if name in sys.modules]))\n"
-        "from batik_vector.cli import main; main()"
+        "from batik_vector.command.cli import main; main()"
     )
     done = subprocess.run(
         [sys.executable, "-c", script], capture_output=True, text=True, check=True, cwd=ROOT

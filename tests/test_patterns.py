@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from batik_vector.importing.matrix import parse_transform
 from batik_vector.importing.page import parse_px
 from batik_vector.patterns import NUMBER, numbers_in
-from batik_vector.reading.lines import Lines
+from batik_vector.recipe.reading.lines import Lines
 from tests.test_package import MODULES, PACKAGE
 
 LATER = re.compile(r"(?<!\\)\)(?:[*+?]|\{[\d,]*\})\+|\(\?>")
@@ -94,10 +94,10 @@ from batik_vector.importing.matrix import parse_transform
 from batik_vector.importing.outlines import parse_path
 from batik_vector.importing.page import parse_px
 from batik_vector.importing.paint import url_of
-from batik_vector.reading.limits import deep_key
-from batik_vector.reading.lines import Lines
-from batik_vector.reading.lines import parse_path as parse_key
-from batik_vector.tiling.cells import parse_repeat
+from batik_vector.recipe.reading.limits import deep_key
+from batik_vector.recipe.reading.lines import Lines
+from batik_vector.recipe.reading.lines import parse_path as parse_key
+from batik_vector.tiling.symmetry.repeats import parse_repeat
 from batik_vector.tiling.layouts.copies import parse_rosette
 from batik_vector.units import parse_length
 from tests.test_patterns import HOSTILE

@@ -10,11 +10,11 @@ import pytest
 from batik_vector import certify, compile_cloth, compile_recipe, load_recipe
 from batik_vector.artwork import Artwork, violations
 from batik_vector.certificate.symmetry import found_group
-from batik_vector.compiler import inspect
+from batik_vector.compiling.compiler import inspect
 from batik_vector.export import FORMATS, render
 from batik_vector.export.options import PngOptions
-from batik_vector.tiling.field import collected, repeated
-from batik_vector.tiling.yardage import Yardage
+from batik_vector.tiling.cloth.field import collected, repeated
+from batik_vector.tiling.cloth.yardage import Yardage
 from tests.tiling.test_seamless import assert_line_ends_meet, crossings, cuts, difference, rolled, twins
 
 FOLDER = Path(__file__).resolve().parent.parent / "samples"

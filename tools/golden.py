@@ -22,9 +22,9 @@ from PIL import Image, ImageChops
 
 from batik_vector import Artwork, Recipe, compile_cloth, compile_recipe, load_recipe
 from batik_vector.export import PngOptions, render
-from batik_vector.outputs import PngOutput
-from batik_vector.tiling.field import repeated
-from batik_vector.tiling.yardage import Yardage
+from batik_vector.recipe.outputs import PngOutput
+from batik_vector.tiling.cloth.field import repeated
+from batik_vector.tiling.cloth.yardage import Yardage
 from batik_vector.units import STEPS_PER_MM, format_mm
 
 SAMPLES = Path(__file__).resolve().parents[1] / "samples"

@@ -21,21 +21,21 @@ from pathlib import Path
 from typing import Annotated, Any
 
 from batik_vector.artwork import Overlap
-from batik_vector.borderspec import BorderSpec, Corner, Ends, Facing, RailSpec
 from batik_vector.fields import HIDDEN, Between, LengthUnit, OneOf, Says, Several
 from batik_vector.geometry.curves import CURVES
 from batik_vector.geometry.maps import VARIATIONS
 from batik_vector.geometry.regions import FillRule
-from batik_vector.model import ClothSpec, InkSpec, Placement, Recipe, YardageSpec
-from batik_vector.motif import Core, Dress, Element, Flower, Leaf, Petals, Pistil, Rosette, Treatment
-from batik_vector.outputs import OUTPUTS
-from batik_vector.tiling.cells import Cut, TileSpec
-from batik_vector.tiling.fitting import Fit
-from batik_vector.tiling.friezes import FRIEZES
-from batik_vector.tiling.groups import GROUPS
+from batik_vector.recipe.border import BorderSpec, Corner, Ends, Facing, RailSpec
+from batik_vector.recipe.model import ClothSpec, InkSpec, Placement, Recipe, YardageSpec
+from batik_vector.recipe.motif import Core, Dress, Element, Flower, Leaf, Petals, Pistil, Rosette, Treatment
+from batik_vector.recipe.outputs import OUTPUTS
+from batik_vector.tiling.cloth.spec import Align, Edge
 from batik_vector.tiling.layouts import LAYOUTS, Clear, MapSpec, Spot, Term
-from batik_vector.tiling.symmetry import Spread
-from batik_vector.tiling.yardspec import Align, Edge
+from batik_vector.tiling.symmetry.friezes import FRIEZES
+from batik_vector.tiling.symmetry.groups import GROUPS
+from batik_vector.tiling.symmetry.machine_fit import Fit
+from batik_vector.tiling.symmetry.repeats import Cut, TileSpec
+from batik_vector.tiling.symmetry.spread import Spread
 from batik_vector.units import MM_PER_UNIT, format_mm
 
 PAGE = Path(__file__).resolve().parent.parent / "docs" / "recipe.md"

@@ -11,8 +11,8 @@ check proves, and what it lets pass, is said at the head of its module.
 
 from __future__ import annotations
 
-from batik_vector.certificate.asking import Asked
-from batik_vector.certificate.certifying import certify
+from batik_vector.certificate.checks import certify
+from batik_vector.certificate.expectations import Asked
 from batik_vector.certificate.pointers import pointers
 from batik_vector.certificate.report import Certificate, Kind, Limits, Measures, SeamFault
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from batik_vector.certificate.lattice import Matrix, Whole
-from batik_vector.certificate.nearest import spread
+from batik_vector.certificate.nearest_edges import spread
 from batik_vector.certificate.outline import Outline, Points
 
 SIDE = 360

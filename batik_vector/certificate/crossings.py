@@ -17,7 +17,7 @@ from batik_vector.certificate.drawing import Borders, InkDrawing
 from batik_vector.certificate.report import Kind, Limits, Measures, SeamFault
 from batik_vector.certificate.seam import Seam, nearest_distance, traces
 from batik_vector.certificate.shifts import Events
-from batik_vector.tiling.seams import Intervals, joined, symmetric_difference
+from batik_vector.tiling.torus.seams import Intervals, joined, symmetric_difference
 from batik_vector.units import format_mm
 from batik_vector.values import frozen
 

@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 from batik_vector.artwork import Artwork, Cell, Geometries, Ink, Layer
 from batik_vector.certificate.report import Place
 from batik_vector.errors import GeometryError
-from batik_vector.tiling.torus import Steps, Window, clip_areas, polygons_of, split_at
-from batik_vector.tiling.weld import meeting, welded
+from batik_vector.tiling.torus.torus import Steps, Window, clip_areas, polygons_of, split_at
+from batik_vector.tiling.welding.weld import meeting, welded
 from batik_vector.units import STEPS_PER_MM, on_grid
 from batik_vector.values import frozen
 

@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 
 from batik_vector.artwork import Geometries
 from batik_vector.certificate.drawing import Frame
-from batik_vector.certificate.elsewhere import Elsewhere, translates
+from batik_vector.certificate.recut import Elsewhere, translates
 from batik_vector.certificate.report import Place
-from batik_vector.tiling.torus import Window, clip_areas, polygons_of, wrap
-from batik_vector.tiling.weld import welded
+from batik_vector.tiling.torus.torus import Window, clip_areas, polygons_of, wrap
+from batik_vector.tiling.welding.weld import welded
 
 Difference = tuple[float, Place | None]
 """Area in mm², and where the largest piece of it lies, in mm; None where there is none to speak of."""

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from batik_vector.artwork import Cell, Geometries, Layer
 from batik_vector.geometry.regions import oriented
-from batik_vector.tiling import seams
-from batik_vector.tiling.torus import (
+from batik_vector.tiling.torus import seams
+from batik_vector.tiling.torus.torus import (
     Steps,
     Window,
     clip_areas,
@@ -25,7 +25,7 @@ from batik_vector.tiling.torus import (
     polygons_of,
     to_step_grid,
 )
-from batik_vector.tiling.weld import welded
+from batik_vector.tiling.welding.weld import welded
 from batik_vector.units import STEPS_PER_MM
 from batik_vector.values import frozen
 

@@ -10,8 +10,7 @@ import shapely
 from batik_vector.artwork import Artwork, Geometries, Ink, Layer, Overlap, violations
 from batik_vector.certificate.report import Certificate
 from batik_vector.geometry.regions import oriented
-from batik_vector.tiling.once import drawn_once
-from batik_vector.tiling.torus import (
+from batik_vector.tiling.torus.torus import (
     Window,
     clip_areas,
     clip_lines,
@@ -20,7 +19,8 @@ from batik_vector.tiling.torus import (
     to_mm,
     to_step_grid,
 )
-from batik_vector.tiling.weld import welded
+from batik_vector.tiling.welding.duplicates import drawn_once
+from batik_vector.tiling.welding.weld import welded
 
 NAME = "check"
 COLOUR = "#ff00c8"

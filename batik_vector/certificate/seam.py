@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from batik_vector.artwork import Geometries
 from batik_vector.certificate.drawing import Edges, Frame
 from batik_vector.certificate.report import Place
-from batik_vector.tiling import seams
-from batik_vector.tiling.seams import Intervals
+from batik_vector.tiling.torus import seams
+from batik_vector.tiling.torus.seams import Intervals
 from batik_vector.units import format_mm
 from batik_vector.values import frozen
 

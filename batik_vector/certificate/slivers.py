@@ -14,7 +14,7 @@ import shapely
 from numpy.typing import NDArray
 
 from batik_vector.certificate.drawing import Edges, Frame, InkDrawing, joined, repeats, ring_edges
-from batik_vector.certificate.elsewhere import Elsewhere
+from batik_vector.certificate.recut import Elsewhere
 from batik_vector.certificate.report import Kind, Limits, SeamFault
 from batik_vector.certificate.seam import EDGE_NAMES
 from batik_vector.units import format_mm

@@ -16,7 +16,9 @@ from fractions import Fraction
 import numpy as np
 
 from batik_vector.artwork import Cell, Layer
+from batik_vector.certificate.agreement import Fit, Matcher
 from batik_vector.certificate.candidates import SIDE, Spectra
+from batik_vector.certificate.group_names import ORBIFOLDS, name_of
 from batik_vector.certificate.lattice import (
     IDENTITY,
     Matrix,
@@ -28,8 +30,6 @@ from batik_vector.certificate.lattice import (
     refined,
     turns,
 )
-from batik_vector.certificate.matching import Fit, Matcher
-from batik_vector.certificate.naming import ORBIFOLDS, name_of
 from batik_vector.certificate.operations import FoundGroup, Miss, Pair, Vector, described, pair
 from batik_vector.certificate.outline import Outline, outline
 from batik_vector.certificate.stripes import stripes

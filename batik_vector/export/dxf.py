@@ -13,7 +13,6 @@ characters: a longer recipe is left out of an R12 file.
 from __future__ import annotations
 
 import functools
-import io
 from pathlib import Path
 from typing import BinaryIO
 
@@ -38,7 +37,7 @@ from batik_vector.export.numbers import (
 from batik_vector.export.options import DxfOptions, DxfVersion
 from batik_vector.export.palette import distinct_aci, dxf_names
 from batik_vector.export.provenance import ascii_chunks
-from batik_vector.export.walk import Outlines, walk
+from batik_vector.export.walk import Outlines, in_memory, walk
 from batik_vector.units import STEPS_PER_MM
 
 R2000_SKELETON = "dxf_r2000.txt"
@@ -61,9 +60,7 @@ DEFAULTS = DxfOptions()
 
 def render(page: Page, options: DxfOptions = DEFAULTS) -> bytes:
     """Return a page as a DXF file; see :func:`write`."""
-    sink = io.BytesIO()
-    write(page, sink, options)
-    return sink.getvalue()
+    return in_memory(lambda sink: write(page, sink, options))
 
 
 def write(page: Page, sink: BinaryIO, options: DxfOptions = DEFAULTS) -> None:

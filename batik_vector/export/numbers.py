@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from batik_vector.errors import ExportError
-from batik_vector.outlines import Index, Offsets, Steps
+from batik_vector.geometry.outlines import Index, Offsets, Steps
 from batik_vector.values import frozen
 
 Words: TypeAlias = NDArray[np.uint32]

@@ -12,7 +12,6 @@ box is the cell.
 from __future__ import annotations
 
 import hashlib
-import io
 import math
 import zlib
 from typing import BinaryIO
@@ -25,7 +24,7 @@ from batik_vector.export.options import Curves, PdfInks, PdfOptions
 from batik_vector.export.palette import rgb, xml_label
 from batik_vector.export.provenance import NAMESPACE, xml_fields
 from batik_vector.export.strokes import CONTROL, LINE, MOVE, Strokes, strokes, trim_of
-from batik_vector.export.walk import Outlines, walk
+from batik_vector.export.walk import Outlines, in_memory, walk
 from batik_vector.units import STEPS_PER_MM
 
 POINTS_PER_STEP = 72 / 25.4 / STEPS_PER_MM
@@ -48,9 +47,7 @@ DEFAULTS = PdfOptions()
 
 def render(page: Page, options: PdfOptions = DEFAULTS) -> bytes:
     """Return a page as a PDF file; see :func:`write`."""
-    sink = io.BytesIO()
-    write(page, sink, options)
-    return sink.getvalue()
+    return in_memory(lambda sink: write(page, sink, options))
 
 
 def write(page: Page, sink: BinaryIO, options: PdfOptions = DEFAULTS) -> None:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from batik_vector.artwork import Page
-from batik_vector.outlines import Offsets, Outlines, Steps
+from batik_vector.geometry.outlines import Offsets, Outlines, Steps
 from batik_vector.units import STEPS_PER_MM
 from batik_vector.values import frozen
 

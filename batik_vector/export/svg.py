@@ -11,7 +11,6 @@ layers; the paths are put between as they come.
 
 from __future__ import annotations
 
-import io
 import re
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator, Sequence
@@ -22,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from batik_vector.artwork import Ink, Overlap, Page, Plate
-from batik_vector.export import lean
+from batik_vector.export import light_svgwrite
 from batik_vector.export.ids import Ids
 from batik_vector.export.numbers import (
     WORD,
@@ -41,8 +40,8 @@ from batik_vector.export.options import Curves, Profile, SvgOptions
 from batik_vector.export.palette import hex_colour, xml_label
 from batik_vector.export.provenance import NAMESPACE, xml_fields
 from batik_vector.export.strokes import CONTROL, CURVE, LINE, MOVE, Strokes, strokes, trim_of
-from batik_vector.export.walk import Outlines, walk
-from batik_vector.outlines import Index
+from batik_vector.export.walk import Outlines, in_memory, walk
+from batik_vector.geometry.outlines import Index
 from batik_vector.units import STEPS_PER_MM, format_mm
 
 INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"
@@ -65,9 +64,7 @@ DEFAULTS = SvgOptions()
 
 def render(page: Page, options: SvgOptions = DEFAULTS) -> bytes:
     """Return a page as an SVG file; see :func:`write`."""
-    sink = io.BytesIO()
-    write(page, sink, options)
-    return sink.getvalue()
+    return in_memory(lambda sink: write(page, sink, options))
 
 
 def write(page: Page, sink: BinaryIO, options: SvgOptions = DEFAULTS) -> None:
@@ -262,7 +259,7 @@ def furniture(page: Page, options: SvgOptions) -> str:
     margins = page.margins
     width = format_mm((page.cell.columns + margins.left + margins.right) / STEPS_PER_MM)
     height = format_mm((page.cell.rows + margins.bottom + margins.top) / STEPS_PER_MM)
-    drawing = lean.svgwrite().Drawing(
+    drawing = light_svgwrite.svgwrite().Drawing(
         size=(f"{width}mm", f"{height}mm"), viewBox=f"0 0 {width} {height}", debug=False
     )
     drawing["xmlns:inkscape"] = INKSCAPE

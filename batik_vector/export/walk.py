@@ -6,14 +6,16 @@ page gives them. A surface spells them out and knows nothing of shapely.
 
 from __future__ import annotations
 
+import io
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import BinaryIO, Protocol
 
 from batik_vector.artwork import Ink, Page
 from batik_vector.export.numbers import check_range
-from batik_vector.outlines import Offsets, Outlines
+from batik_vector.geometry.outlines import Offsets, Outlines
 
-__all__ = ["GUIDE_PEN", "Offsets", "Outlines", "RecordingSurface", "Surface", "walk"]
+__all__ = ["GUIDE_PEN", "Offsets", "Outlines", "RecordingSurface", "Surface", "in_memory", "walk"]
 
 GUIDE_PEN = 0
 """The number of a layer that no pen draws."""
@@ -36,6 +38,13 @@ class Surface(Protocol):
 
     def end(self) -> None:
         """Close the page."""
+
+
+def in_memory(write: Callable[[BinaryIO], object]) -> bytes:
+    """Return what a writer writes."""
+    sink = io.BytesIO()
+    write(sink)
+    return sink.getvalue()
 
 
 def walk(page: Page, surface: Surface) -> None:

@@ -16,10 +16,11 @@ import numpy as np
 from batik_vector import fields
 from batik_vector.errors import GeometryError, TooLargeError
 from batik_vector.fields import Between, Says
-from batik_vector.geometry.coincide import distinct, drawn_once
+from batik_vector.geometry.coincidence import distinct, drawn_once
 from batik_vector.geometry.maps.affine import IDENTITY, SIMILAR, Affine
 from batik_vector.geometry.maps.affines import Affines
-from batik_vector.geometry.maps.flame import STRETCH_CAP, FlameMap, Images, Tolerance
+from batik_vector.geometry.maps.flame import STRETCH_CAP, FlameMap
+from batik_vector.geometry.maps.images.result import Images, Tolerance
 from batik_vector.geometry.sampling import REFINE_SHARE, Array, Geometries, Indices, Points
 from batik_vector.values import frozen
 
@@ -89,13 +90,18 @@ class Ifs:
 
         Raises:
             TooLargeError: with the estimate, before anything is built.
-            TornRingError: where a map cannot carry a region: see :meth:`FlameMap.areas`.
+            TornRingError: where a map cannot carry a region: see
+                :func:`~batik_vector.geometry.maps.images.areas.area_images`.
         """
-        return self._carried(polygons, tolerance, lambda each, marks, allowed: each.areas(marks, allowed))
+        from batik_vector.geometry.maps.images.areas import area_images
+
+        return self._carried(polygons, tolerance, area_images)
 
     def lines(self, lines: Geometries, tolerance: float) -> tuple[Geometries, Indices]:
         """Return the copies of polylines: as :meth:`areas`."""
-        return self._carried(lines, tolerance, lambda each, marks, allowed: each.lines(marks, allowed))
+        from batik_vector.geometry.maps.images.lines import line_images
+
+        return self._carried(lines, tolerance, line_images)
 
     def stretch(self, points: Points, levels: int | None = None) -> Array:
         """Return the largest magnification of lengths at each point, shape (n,), over all copies.

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from batik_vector.artwork import Cell, Geometries, Ink, Layer, Overlap
 from batik_vector.importing.document import Document
 from batik_vector.importing.fills import filled
-from batik_vector.importing.flatten import Lines
+from batik_vector.importing.polylines import Lines
 from batik_vector.importing.walk import Shape
 from batik_vector.units import STEPS_PER_MM, format_mm
 from batik_vector.values import frozen

@@ -17,13 +17,13 @@ import numpy as np
 from batik_vector.artwork import Artwork, Cell, DropAxis
 from batik_vector.errors import GeometryError, TooLargeError
 from batik_vector.importing.document import Document, DrawingError, children, load, local, parse
-from batik_vector.importing.flatten import flattened
 from batik_vector.importing.inks import Marks, layers_of, painted
 from batik_vector.importing.matrix import Matrix
 from batik_vector.importing.outlines import CURVE, joined
 from batik_vector.importing.page import Page, page_of
+from batik_vector.importing.polylines import flattened
 from batik_vector.importing.walk import Shape, Walker
-from batik_vector.tiling.cells import parse_repeat
+from batik_vector.tiling.symmetry.repeats import parse_repeat
 from batik_vector.units import STEPS_PER_MM, format_mm
 from batik_vector.values import frozen
 

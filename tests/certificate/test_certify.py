@@ -17,11 +17,11 @@ from batik_vector import compile_recipe, load_recipe
 from batik_vector.artwork import Artwork, Layer
 from batik_vector.certificate import Certificate, Kind, Limits, certify
 from batik_vector.errors import GeometryError, UnknownNameError
-from batik_vector.model import Recipe
-from batik_vector.recipe import read_recipe
-from batik_vector.tiling.field import with_bleed
-from batik_vector.tiling.sheets import Sheet
-from batik_vector.tiling.stack import assemble
+from batik_vector.recipe.loading import read_recipe
+from batik_vector.recipe.model import Recipe
+from batik_vector.tiling.cloth.field import with_bleed
+from batik_vector.tiling.welding.sheets import Sheet
+from batik_vector.tiling.welding.stack import assemble
 from tests.certificate.tiles import AREAS, LINES, OVERLAY, PEN, WAX, added, marks, strokes, tile
 from tests.recipes import REPEATS, recipes
 from tests.thorough import examples, long

@@ -11,9 +11,9 @@ import shapely
 from batik_vector.artwork import Cell
 from batik_vector.certificate import Kind
 from batik_vector.certificate.drawing import Frame, drawing
-from batik_vector.certificate.elsewhere import elsewhere
 from batik_vector.certificate.identity import rolled_difference
-from batik_vector.tiling.field import with_bleed
+from batik_vector.certificate.recut import elsewhere
+from batik_vector.tiling.cloth.field import with_bleed
 from tests.certificate.tiles import accused, tile, vertex_moved
 
 

@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 
 from batik_vector.artwork import Artwork, Cell, DropAxis, Geometries, Ink, Layer, Overlap
 from batik_vector.certificate import Certificate, Kind, SeamFault, certify
-from batik_vector.tiling.sheets import Sheet
-from batik_vector.tiling.stack import assemble
+from batik_vector.tiling.welding.sheets import Sheet
+from batik_vector.tiling.welding.stack import assemble
 
 WIDTH, HEIGHT = 100.0, 80.0
 WAX, PEN = Ink("wax", "#f4efe2"), Ink("pen", "#8c2f2b", width=0.8)

@@ -9,9 +9,9 @@ import numpy as np
 import shapely
 
 from batik_vector.artwork import Artwork
-from batik_vector.compiler import compile_cloth, compile_recipe
-from batik_vector.recipe import load_recipe
-from batik_vector.tiling.field import collected
+from batik_vector.compiling.compiler import compile_cloth, compile_recipe
+from batik_vector.recipe.loading import load_recipe
+from batik_vector.tiling.cloth.field import collected
 
 HERE = Path(__file__).parent
 ENOUGH = {"group-p4g", "group-p6m", "toss-fish", "ground-waves", "figure-05", "figure-14a"}

@@ -17,12 +17,12 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from batik_vector.artwork import Artwork, Cell
-from batik_vector.compiler import compile_recipe
+from batik_vector.compiling.compiler import compile_recipe
 from batik_vector.export import SvgOptions, render
 from batik_vector.geometry.curves import Polygon, Superellipse
-from batik_vector.model import Cut, InkSpec, Placement, Recipe, TileSpec
-from batik_vector.motif import Element, Rosette, Treatment
-from batik_vector.tiling.field import repeated
+from batik_vector.recipe.model import Cut, InkSpec, Placement, Recipe, TileSpec
+from batik_vector.recipe.motif import Element, Rosette, Treatment
+from batik_vector.tiling.cloth.field import repeated
 from batik_vector.units import STEPS_PER_MM
 from tests.clients.pictures import Mask
 from tests.clients.renderers import Page
@@ -38,7 +38,7 @@ class Joint(enum.StrEnum):
     """How tiles are put together."""
 
     WELDED = "welded"
-    """By :func:`~batik_vector.tiling.field.repeated`."""
+    """By :func:`~batik_vector.tiling.cloth.field.repeated`."""
     ABUTTING = "abutting"
     """The tile's own paths copied side by side, as drawing programs repeat a tile."""
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from batik_vector.artwork import Artwork
-from batik_vector.checking import Found, Wishes, check_source
+from batik_vector.command.checks import Found, Wishes, check_source
 from batik_vector.export import SvgOptions, render
 from batik_vector.importing.svg import read_tile
 from tests.clients import programs

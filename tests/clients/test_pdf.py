@@ -9,7 +9,7 @@ import pytest
 
 from batik_vector.artwork import Artwork
 from batik_vector.export import PdfOptions, SvgOptions, render
-from batik_vector.tiling.field import with_bleed
+from batik_vector.tiling.cloth.field import with_bleed
 from tests.clients import programs
 from tests.clients.drawings import per_mm
 from tests.clients.pictures import differing, load, reference, shade_apart

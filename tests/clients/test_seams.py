@@ -11,10 +11,10 @@ import shapely
 from numpy.typing import NDArray
 
 from batik_vector.artwork import Artwork
-from batik_vector.compiler import compile_recipe
+from batik_vector.compiling.compiler import compile_recipe
 from batik_vector.export import PngOptions, render
-from batik_vector.model import Recipe, TileSpec
-from batik_vector.tiling.field import repeated
+from batik_vector.recipe.model import Recipe, TileSpec
+from batik_vector.tiling.cloth.field import repeated
 from tests.clients.pictures import RIM, load
 from tests.clients.renderers import IN_PYTHON, PROGRAMS, Renderer
 from tests.clients.seams import DPIS, RECIPES, Joint, bleeding, inside, pages

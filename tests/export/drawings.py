@@ -21,7 +21,7 @@ from batik_vector.artwork import (
     Plate,
     Provenance,
 )
-from batik_vector.outlines import Outlines
+from batik_vector.geometry.outlines import Outlines
 from batik_vector.units import on_grid
 
 NASTY = (

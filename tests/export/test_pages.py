@@ -31,9 +31,9 @@ from batik_vector.export import (
     write_artwork,
     write_page,
 )
-from batik_vector.outlines import MM, Outlines, of_polylines
-from batik_vector.tiling.yardage import compile_yardage
-from batik_vector.tiling.yardspec import YardageSpec
+from batik_vector.geometry.outlines import MM, Outlines, of_polylines
+from batik_vector.tiling.cloth.spec import YardageSpec
+from batik_vector.tiling.cloth.yardage import compile_yardage
 
 from .drawings import InPieces, disc, geometries, line, sample
 from .readers import pdf_rings, svg_layers, svg_rings

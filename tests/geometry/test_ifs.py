@@ -8,11 +8,11 @@ import pytest
 import shapely
 
 from batik_vector.errors import GeometryError, TooLargeError
-from batik_vector.geometry.coincide import drawn_once
+from batik_vector.geometry.coincidence import drawn_once
 from batik_vector.geometry.ifs import Ifs, distinct
 from batik_vector.geometry.maps import Affine, FlameMap, Geometries, JuliaN, Linear
 from batik_vector.geometry.maps.affines import Affines
-from tests.geometry.maps.measure import array_of, optimum, outlines
+from tests.geometry.maps.images.measure import array_of, optimum, outlines
 
 TOLERANCE = 1e-3
 

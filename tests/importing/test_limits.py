@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from batik_vector.importing import flatten, walk
+from batik_vector.importing import polylines, walk
 from batik_vector.importing.svg import DrawingError, read_svg, read_tile
 from tests.importing.drawings import DISC, svg
 
@@ -72,7 +72,7 @@ def test_selectors_that_many_elements_would_try_are_passed_over() -> None:
 
 
 def test_curves_of_too_many_points_are_refused_beforehand(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(flatten, "MAX_CURVED", 1000)
+    monkeypatch.setattr(polylines, "MAX_CURVED", 1000)
     assert read_tile(svg(DISC)).layers
     with pytest.raises(DrawingError, match=r"curves come to [\d,]+ points, expected at most 1,000"):
         read_tile(svg(DISC * 20))

@@ -16,16 +16,16 @@ import shapely
 from numpy.typing import NDArray
 
 from batik_vector.artwork import Artwork, Cell, Ink, Layer
-from batik_vector.compiler import compile_recipe
-from batik_vector.model import Placement, Recipe
-from batik_vector.motif import Flower, Motif
-from batik_vector.recipe import load_recipe
-from batik_vector.tiling.cells import TileSpec
+from batik_vector.compiling.compiler import compile_recipe
+from batik_vector.recipe.loading import load_recipe
+from batik_vector.recipe.model import Placement, Recipe
+from batik_vector.recipe.motif import Flower, Motif
+from batik_vector.tiling.cloth.spec import YardageSpec
+from batik_vector.tiling.cloth.yardage import compile_yardage
 from batik_vector.tiling.layouts import Julian
-from batik_vector.tiling.once import drawn_once
-from batik_vector.tiling.weld import components
-from batik_vector.tiling.yardage import compile_yardage
-from batik_vector.tiling.yardspec import YardageSpec
+from batik_vector.tiling.symmetry.repeats import TileSpec
+from batik_vector.tiling.welding.duplicates import drawn_once
+from batik_vector.tiling.welding.weld import components
 from tests.budgets import (
     CLUSTER,
     DISC,

@@ -12,12 +12,12 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from batik_vector.artwork import Artwork, Cell, Layer, Overlap, violations
-from batik_vector.compiler import compile_recipe
+from batik_vector.compiling.compiler import compile_recipe
 from batik_vector.errors import RecipeError
-from batik_vector.model import Recipe
-from batik_vector.tiling.cells import MIRRORS, Cut
-from batik_vector.tiling.field import repeated
-from batik_vector.tiling.symmetry import Spread
+from batik_vector.recipe.model import Recipe
+from batik_vector.tiling.cloth.field import repeated
+from batik_vector.tiling.symmetry.repeats import MIRRORS, Cut
+from batik_vector.tiling.symmetry.spread import Spread
 from tests.recipes import recipes
 from tests.thorough import examples, long
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from batik_vector.geometry.maps.affine import Affine, Complexes
 from batik_vector.geometry.maps.base import Variation
 from batik_vector.geometry.maps.bent import Bent
-from batik_vector.geometry.maps.flame import FlameMap, Images
+from batik_vector.geometry.maps.flame import FlameMap
 from batik_vector.geometry.maps.julian import JuliaN
 from batik_vector.geometry.maps.linear import Linear
 from batik_vector.geometry.maps.sinusoidal import Sinusoidal
@@ -29,7 +29,6 @@ __all__ = [
     "Complexes",
     "FlameMap",
     "Geometries",
-    "Images",
     "JuliaN",
     "Linear",
     "Sinusoidal",

@@ -3,51 +3,28 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from functools import cached_property
-from typing import NamedTuple, TypeAlias
 
 import numpy as np
-import shapely
 
 from batik_vector.errors import GeometryError
 from batik_vector.geometry.maps.affine import IDENTITY, Affine, Complexes
-from batik_vector.geometry.maps.affines import Affines
 from batik_vector.geometry.maps.base import Variation
-from batik_vector.geometry.sampling import Array, Geometries, Indices, Points
+from batik_vector.geometry.sampling import Array, Points
 from batik_vector.values import frozen
 
 STRETCH_CAP = 1e6
 """Where a map is infinitely steep (the origin of JuliaN with P2 < P1) a finite number must do. Curves
 through such a point run straight into it, so finer sampling there would buy nothing."""
 
-Tolerance: TypeAlias = float | Callable[[Points], Array]
-"""One tolerance, or a function of points in the image where it varies; the images are then left dense,
-to be thinned further on."""
-
 MAX_BRANCHES = 4096
-
-
-class Images(NamedTuple):
-    """What became of an array of marks: the images, branch after branch and within one in source order.
-
-    ``source[i]`` is the index of the mark that image i comes from, ``branch[i]`` the branch it lies on.
-    A region that winds round the origin has one image on all branches together: it counts to branch 0.
-    A mark that is cut (a fold, an arc that ends in the origin) has several images on one branch.
-    """
-
-    geometries: Geometries
-    source: Indices
-    branch: Indices
-
-
-NO_IMAGES = Images(np.empty(0, dtype=object), np.empty(0, np.intp), np.empty(0, np.intp))
 
 
 @frozen
 class FlameMap:
-    """F = post ∘ (Σ_j w_j V_j) ∘ pre, carrying whole curves and regions.
+    """F = post ∘ (Σ_j w_j V_j) ∘ pre, as a value.
 
+    Curves and regions are carried by it in :mod:`~batik_vector.geometry.maps.images`.
     ``terms`` are (weight, variation). The branches of a sum are all combinations of its terms' branches,
     the first term's running fastest.
     Draves & Reckase, "The Fractal Flame Algorithm", §3; Tian et al. 2019, Eqs. 7–23.
@@ -72,50 +49,6 @@ class FlameMap:
     def branches(self) -> int:
         """How many images each point has."""
         return math.prod(variation.branches for _, variation in self.terms)
-
-    def areas(self, polygons: Geometries, tolerance: Tolerance) -> Images:
-        """Return the images of polygons.
-
-        Args:
-            polygons: valid polygons (no multipolygons), shape (n,).
-            tolerance: how far an edge may stand from the exact image of the given edges.
-
-        Returns:
-            Valid polygons, outer rings anticlockwise.
-
-        Raises:
-            TornRingError: where a region contains or touches a point that goes to infinity, or winds
-                round a branch point under a sum of variations.
-        """
-        polygons = np.asarray(polygons, dtype=object)
-        affine = self.affine_branches()
-        if affine is not None:
-            return _affine_images(affine, shapely.orient_polygons(polygons))
-        from batik_vector.geometry.maps.areas import area_images
-
-        return area_images(self, polygons, tolerance)
-
-    def lines(self, lines: Geometries, tolerance: Tolerance) -> Images:
-        """Return the images of polylines; closed ones stay closed.
-
-        A closed line that winds w times round the branch point of a JuliaN ``root`` has gcd(|w|, P1)
-        images of P1/gcd turns each. A line through the branch point is split there.
-
-        Args:
-            lines: LineStrings, shape (n,).
-            tolerance: how far an edge may stand from the exact image of the given edges.
-
-        Raises:
-            TornRingError: where a line runs through a point that goes to infinity, or winds round a
-                branch point under a sum of variations.
-        """
-        lines = np.asarray(lines, dtype=object)
-        affine = self.affine_branches()
-        if affine is not None:
-            return _affine_images(affine, lines)
-        from batik_vector.geometry.maps.lines import line_images
-
-        return line_images(self, lines, tolerance)
 
     def at(self, points: Points, branch: int = 0) -> Points:
         """Return the images of single points, shape (n, 2), on one branch (principal angles)."""
@@ -187,30 +120,3 @@ class FlameMap:
     def poles(self) -> tuple[str, ...]:
         """The names of the terms that send their origin to infinity."""
         return tuple(variation.name for _, variation in self.terms if variation.pole)
-
-
-def core_tolerance(flame: FlameMap, tolerance: Tolerance) -> Tolerance:
-    """Return the tolerance before post, for what is traced once and stands for all its turned branches."""
-    if not callable(tolerance):
-        return tolerance / flame.post.stretch
-    given = tolerance
-    spins = [1 + 0j]
-    if len(flame.terms) == 1:
-        spins = [flame.terms[0][1].spin(k) for k in range(flame.branches)]
-
-    def allowed(points: Points) -> Array:
-        z = np.ascontiguousarray(points).view(np.complex128)[:, 0]
-        turned = [flame.post.at_complex(np.ascontiguousarray(z * spin)) for spin in spins]
-        worst = np.min([given(each.view(np.float64).reshape(-1, 2)) for each in turned], axis=0)
-        return np.asarray(worst / flame.post.stretch)
-
-    return allowed
-
-
-def _affine_images(maps: list[Affine], marks: Geometries) -> Images:
-    count = len(marks)
-    return Images(
-        Affines.of(maps).apply(marks),
-        np.tile(np.arange(count, dtype=np.intp), len(maps)),
-        np.repeat(np.arange(len(maps), dtype=np.intp), count),
-    )

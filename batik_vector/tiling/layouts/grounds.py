@@ -1,7 +1,7 @@
 """Layouts that fill the repeat: tossed marks, and lines that run round it and close.
 
 Both are measured in mm on cloth and need to know the lattice: what they do is in
-:mod:`batik_vector.tiling.toss` and :mod:`batik_vector.tiling.stripes`.
+:mod:`batik_vector.tiling.tossing.toss` and :mod:`batik_vector.tiling.torus.stripes`.
 """
 
 from __future__ import annotations

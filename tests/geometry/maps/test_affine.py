@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from batik_vector.errors import GeometryError
 from batik_vector.geometry.maps import Affine
 from batik_vector.geometry.maps.affine import unit_power, unit_turn
-from tests.geometry.maps.measure import array_of
+from tests.geometry.maps.images.measure import array_of
 from tests.strategies import polygons
 
 numbers = st.floats(-3, 3)

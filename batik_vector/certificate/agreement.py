@@ -1,0 +1,196 @@
+"""How well an operation maps a pattern onto itself, measured along its whole outline.
+
+Only one direction is measured, the image against the pattern. An operation of finite order on the torus
+that carries the outline into itself carries it onto itself: its inverse is one of its powers.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from batik_vector.certificate.lattice import Matrix
+from batik_vector.certificate.nearest_edges import Nearest, spread
+from batik_vector.certificate.outline import Edges, Indices, Points
+from batik_vector.values import frozen
+
+FEW = 600
+"""Points, evenly strewn over the outline, by which an operation is placed and most false ones are refused."""
+
+MANY = 20_000
+"""Points strewn along long edges, besides one at each vertex and in the middle of each edge."""
+
+TELLING = 64
+"""Points remembered because an earlier operation failed there: what breaks one symmetry breaks most."""
+
+NEAR = 4
+"""How many times the slack an image is looked for around a point, at the least; limits stay below it."""
+
+MEASURED = 256
+"""Points beyond reach whose distance is worked out one by one where a failure is reported."""
+
+
+@frozen(eq=False)
+class Samples:
+    """Points on the outline: ``xy`` (n, 2) in mm, ``kind`` (n,), ``heading`` (n, 2), zero on lines."""
+
+    xy: Points
+    kind: Indices
+    heading: Points
+
+    def __getitem__(self, rows: Indices) -> Samples:
+        return Samples(self.xy[rows], self.kind[rows], self.heading[rows])
+
+
+@frozen
+class Fit:
+    """How an operation fits: the ``share`` of the outline met, the ``worst`` distance (mm) if it holds."""
+
+    holds: bool
+    share: float
+    worst: float = np.inf
+
+
+class Matcher:
+    """Measures operations x → M x + t on one pattern.
+
+    Args:
+        edges: the outline, in mm.
+        basis: the lattice of the torus, as columns in mm.
+        slack: how far (mm) an image may stand from the pattern.
+        reach: how far (mm) a first guess of t may be out.
+    """
+
+    def __init__(self, edges: Edges, basis: Matrix, slack: float, reach: float) -> None:
+        self.edges, self.basis, self.slack = edges, basis, slack
+        self.all = _samples(edges, slack)
+        self.few = _strewn(edges, FEW, slack)
+        self.telling = np.empty(0, np.intp)
+        self.trees: dict[int, shapely.STRtree] = {}
+        self.near = Nearest(edges, basis, NEAR * slack, slack)
+        self.far = Nearest(edges, basis, max(reach, NEAR * slack), slack)
+
+    def keep_one_cell(self, lattice: Matrix) -> None:
+        """Measure from now on by the points of one cell of a finer lattice, on which the pattern repeats."""
+        cell = np.floor(self.all.xy @ np.linalg.inv(lattice).T)
+        steps = cell @ lattice.T @ np.linalg.inv(self.basis).T
+        self.all = self.all[np.flatnonzero((np.abs(steps - np.rint(steps)) < 1e-6).all(axis=1))]
+        self.telling = np.empty(0, np.intp)
+
+    def placed(self, matrix: Matrix, shift: Points) -> Points:
+        """Return the translation part near ``shift`` that brings the image nearest to the pattern.
+
+        Point-to-line least squares over the points within a shrinking reach (Chen & Medioni, "Object
+        modelling by registration of multiple range images", 1992).
+        """
+        moved = _moved(self.few, matrix)
+        reach = self.far.reach
+        for _ in range(10):
+            near = self.far if reach > self.near.reach else self.near
+            feet = near.feet(moved.xy + shift, moved.kind, moved.heading)
+            used = feet.distance <= reach
+            if used.sum() < 3:
+                break
+            normal = feet.normal[used]
+            gap = (normal * feet.offset[used]).sum(axis=1)
+            square = normal.T @ normal + 1e-6 * len(gap) * np.eye(2)
+            step = np.linalg.solve(square, normal.T @ gap)
+            shift = shift + step
+            if reach <= NEAR * self.slack and np.hypot(*step) < self.slack / 100:
+                break
+            reach = max(reach / 2, NEAR * self.slack)
+        return shift
+
+    def fit(self, matrix: Matrix, shift: Points, limit: float) -> Fit:
+        """Measure whether an operation holds within ``limit`` mm: by a few points first, then by all."""
+        share = float((self._distances(self.few, matrix, shift) <= limit).mean())
+        if share < 1 or (self._distances(self.all[self.telling], matrix, shift) > limit).any():
+            return Fit(False, share)
+        distance = self._distances(self.all, matrix, shift)
+        worst = int(distance.argmax())
+        if distance[worst] <= limit:
+            return Fit(True, share, float(distance[worst]))
+        missed = np.flatnonzero(distance > limit)
+        self.telling = np.r_[missed[:: max(1, len(missed) // 8)], self.telling][:TELLING]
+        return Fit(False, share)
+
+    def failure(self, matrix: Matrix, shift: Points) -> tuple[float, tuple[float, float], int]:
+        """Return by how much (mm) an operation that does not hold fails most, where, and on which kind."""
+        distance = self._distances(self.all, matrix, shift)
+        alone = np.flatnonzero(np.isinf(distance))
+        distance[alone] = 0
+        alone = alone[:: -(-len(alone) // MEASURED) or 1]
+        for kind in np.unique(self.all.kind[alone]):
+            mine = alone[self.all.kind[alone] == kind]
+            distance[mine] = self._alone(self.all.xy[mine] @ matrix.T + shift, int(kind))
+        worst = int(distance.argmax())
+        x, y = self.all.xy[worst].tolist()
+        return float(distance[worst]), (x, y), int(self.all.kind[worst])
+
+    def _distances(self, samples: Samples, matrix: Matrix, shift: Points) -> NDArray[np.float64]:
+        moved = _moved(samples, matrix)
+        return self.near.distances(moved.xy + shift, moved.kind, moved.heading)
+
+    def _alone(self, xy: Points, kind: int) -> NDArray[np.float64]:
+        """Return how far points are from all edges of a kind, whichever way these run."""
+        if kind not in self.trees:
+            mine = self.edges.kind == kind
+            ends = np.stack([self.edges.begin[mine], self.edges.end[mine]], axis=1)
+            self.trees[kind] = shapely.STRtree(np.asarray(shapely.linestrings(ends)))
+        inverse = np.linalg.inv(self.basis)
+        steps = np.stack(np.meshgrid((-2, -1, 0, 1, 2), (-2, -1, 0, 1, 2)), axis=-1).reshape(-1, 2)
+        home = (self.edges.begin.mean(axis=0) @ inverse.T)[None, :]
+        place = xy @ inverse.T
+        place = place - np.rint(place - home)
+        around = (place[:, None, :] + steps) @ self.basis.T
+        points = shapely.points(around.reshape(-1, 2))
+        _, distance = self.trees[kind].query_nearest(points, return_distance=True, all_matches=False)
+        return np.asarray(distance.reshape(len(xy), -1).min(axis=1))
+
+
+def _moved(samples: Samples, matrix: Matrix) -> Samples:
+    """Return points turned by a linear part; a reflection would leave the covered side on the right."""
+    sign = np.sign(np.linalg.det(matrix))
+    return Samples(samples.xy @ matrix.T, samples.kind, sign * (samples.heading @ matrix.T))
+
+
+def _samples(edges: Edges, short: float) -> Samples:
+    """Return the ends and the middle of every edge, and more points along the long ones."""
+    length = np.hypot(*(edges.end - edges.begin).T)
+    pieces = np.maximum(2, np.ceil(length * (MANY / length.sum()))).astype(np.intp)
+    row, number = spread(pieces)
+    inner = _at(edges, row, number / pieces[row], short)
+    # Beginnings are the ends of other edges, but for the last ends of open lines.
+    lines = np.flatnonzero(edges.kind % 2 == 1)
+    ends = _at(edges, lines, np.ones(len(lines)), short)
+    return Samples(*(np.concatenate(pair) for pair in zip(_parts(inner), _parts(ends), strict=True)))
+
+
+def _parts(samples: Samples) -> tuple[Points, Indices, Points]:
+    return samples.xy, samples.kind, samples.heading
+
+
+def _at(edges: Edges, row: Indices, part: NDArray[np.float64], short: float) -> Samples:
+    step = edges.end[row] - edges.begin[row]
+    aimless = (edges.kind[row] % 2 == 1) | (np.hypot(*step.T) <= short)
+    heading = np.where(aimless[:, None], 0.0, step)
+    return Samples(edges.begin[row] + part[:, None] * step, edges.kind[row], heading)
+
+
+def _strewn(edges: Edges, count: int, short: float) -> Samples:
+    """Return points spread evenly along each kind of edges, each kind with a fair number of them."""
+    length = np.hypot(*(edges.end - edges.begin).T)
+    kinds = np.unique(edges.kind)
+    total = np.bincount(edges.kind, length)
+    rows, parts = [], []
+    for kind in kinds:
+        mine = np.flatnonzero(edges.kind == kind)
+        share = 0.5 / len(kinds) + 0.5 * total[kind] / length.sum()
+        reached = np.cumsum(length[mine])
+        # Steps in the golden ratio fall in with no period of the pattern.
+        place = ((np.arange(1, int(count * share) + 1) * 0.6180339887498949) % 1) * reached[-1]
+        at = np.minimum(np.searchsorted(reached, place), len(mine) - 1)
+        rows.append(mine[at])
+        parts.append(np.clip(1 - (reached[at] - place) / length[mine[at]], 0, 1))
+    return _at(edges, np.concatenate(rows), np.concatenate(parts), short)

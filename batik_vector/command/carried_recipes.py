@@ -1,0 +1,171 @@
+"""What a file of ours promises by the recipe that it carries, and whether what it draws keeps to it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import shapely
+
+from batik_vector.artwork import Artwork, Cell, DropAxis, Geometries, Layer
+from batik_vector.export.ids import Ids
+from batik_vector.export.palette import xml_label
+from batik_vector.importing.svg import Reading
+from batik_vector.recipe.model import Recipe
+from batik_vector.tiling.cloth.field import repeated, with_bleed
+from batik_vector.units import format_mm
+from batik_vector.values import frozen
+
+SIZE_MM = 1e-3
+"""How far a page may be off the promised size."""
+
+
+@frozen(eq=False)
+class Promise:
+    """What the recipe in a file makes of its page.
+
+    ``artwork`` is what the recipe draws: its tile, or the field of tiles that the page shows; ``repeat`` is
+    how that repeats. ``broken`` says where the page is not the one promised.
+    """
+
+    recipe: Recipe
+    artwork: Artwork
+    repeat: str = "grid"
+    broken: tuple[str, ...] = ()
+
+    def known(self, reading: Reading) -> Artwork:
+        """Return what was read with what the recipe knows of it: inks, borders on the seam, curves."""
+        drawn = reading.artwork
+        ids, known = Ids(), {}
+        ids.one("cloth", "cloth")
+        for layer in self.artwork.layers:
+            # A program that leaves out the labels of layers may keep their ids.
+            known[ids.one(layer.ink.name, "ink")] = layer.ink
+        known |= {xml_label(layer.ink.name): layer.ink for layer in self.artwork.layers}
+        layers = []
+        for layer in drawn.layers:
+            ink = known.get(layer.ink.name)
+            if ink is not None:
+                layer = replace(layer, ink=replace(layer.ink, name=ink.name, overlap=ink.overlap))
+            layers.append(layer)
+        return replace(
+            drawn,
+            title=self.artwork.title,
+            layers=tuple(layers),
+            borders=frozenset() if self.broken else self.artwork.borders,
+            # Curves are fitted to the polylines of the recipe, and come back as polylines once more.
+            tolerance=self.artwork.tolerance * (2 if reading.curved else 1),
+        )
+
+
+def promised(recipe: Recipe, tile: Artwork, reading: Reading) -> Promise:
+    """Return what a recipe promises of a page that was read.
+
+    Args:
+        recipe: in the file.
+        tile: what it compiles to.
+        reading: the file.
+    """
+    repeats = {getattr(each, "repeat", (1, 1)) for each in recipe.output if each.format == "svg"}
+    for across, up in sorted({(1, 1)} | repeats):
+        page = (tile.cell.width * across, tile.cell.height * up)
+        if np.allclose(page, reading.page, rtol=0, atol=SIZE_MM):
+            field = tile if (across, up) == (1, 1) else _with_borders(repeated(tile, across, up), tile)
+            return Promise(recipe, field, _repeat(field.cell))
+    sizes = (" × ".join(map(format_mm, size)) for size in (reading.page, (tile.cell.width, tile.cell.height)))
+    broken = "the page is {} mm, and the recipe in it promises {} mm".format(*sizes)
+    # The drop of a page of another size need not land on the grid.
+    return Promise(recipe, tile, _repeat(tile.cell), (broken,))
+
+
+def bled(promise: Promise, page: tuple[float, float]) -> Promise | None:
+    """Return what a promise is if its page is larger than the cell by a bleed, or None where it is not."""
+    cell = promise.artwork.cell
+    margin, other = page[0] - cell.width, page[1] - cell.height
+    if margin < 2 * SIZE_MM or abs(margin - other) > SIZE_MM:
+        return None
+    artwork = with_bleed(promise.artwork, round(margin / 2, 3))
+    return replace(promise, artwork=replace(artwork, borders=promise.artwork.borders), broken=())
+
+
+def _repeat(cell: Cell) -> str:
+    """Return how a cell repeats in the words of a recipe."""
+    if cell.drop == 0:
+        return "grid"
+    return f"{'drop' if cell.axis == DropAxis.COLUMN else 'brick'} {cell.drop}"
+
+
+def _with_borders(field: Artwork, tile: Artwork) -> Artwork:
+    """Return a field of tiles with those borders along its seam that are borders of the tile."""
+    cell, (_, slip_y), (slip_x, _) = tile.cell, *tile.cell.lattice
+    found = set()
+    for ink, axis, low, high in tile.borders:
+        step, length, slip = (
+            (cell.rows, field.cell.rows, slip_x) if axis == 0 else (cell.columns, field.cell.columns, slip_y)
+        )
+        other = cell.columns if axis == 0 else cell.rows
+        for number in range(length // step):
+            # A neighbour that has dropped has its edges elsewhere.
+            if Fraction(number * slip, other).denominator == 1:
+                found.add((ink, axis, low + number * step, high + number * step))
+    return replace(field, borders=frozenset(found))
+
+
+def differences(drawn: Artwork, promise: Artwork) -> list[str]:
+    """Return in words where a drawing is not what its recipe draws, beyond the tolerance of curves."""
+    words = []
+    mine = {layer.ink.name: layer for layer in drawn.layers}
+    theirs = {layer.ink.name: layer for layer in promise.layers}
+    words += [f'the recipe draws "{name}", the file does not' for name in theirs if name not in mine]
+    words += [f'the file draws "{name}", the recipe does not' for name in mine if name not in theirs]
+    slack = drawn.tolerance + promise.tolerance
+    for name in mine:
+        if name in theirs:
+            words += [f"{name}: {each}" for each in _apart(mine[name], theirs[name], slack)]
+    if drawn.cloth != promise.cloth and drawn.cloth != "#ffffff":
+        words.append(f"the cloth is {drawn.cloth} in the file, {promise.cloth} in the recipe")
+    return words
+
+
+def _apart(mine: Layer, theirs: Layer, slack: float) -> list[str]:
+    words = []
+    if mine.ink.colour != theirs.ink.colour:
+        words.append(f"is {mine.ink.colour} in the file, {theirs.ink.colour} in the recipe")
+    if not _same(mine.areas, theirs.areas):
+        odd = _odd(mine.areas, theirs.areas, slack)
+        if odd:
+            words.append(f"the file and the recipe differ in {odd:,.3g} mm²")
+    if not _same(mine.lines, theirs.lines):
+        lines = [shapely.union_all(each.lines) for each in (mine, theirs)]
+        near = shapely.buffer(lines, slack, quad_segs=2)
+        odd = shapely.length(shapely.difference(lines, near[::-1])).sum()
+        if odd > slack:
+            words.append(f"the lines of the file and of the recipe differ over {odd:,.3g} mm")
+    return words
+
+
+def _odd(mine: Geometries, theirs: Geometries, slack: float) -> float:
+    """Return the area (mm²) in which marks differ, slits as thin as the curves' tolerance left out."""
+    if len(mine) == len(theirs):
+        # Our own files keep the order of marks, and mark against mark is far less work.
+        odd = _thick(shapely.symmetric_difference(mine, theirs), slack)
+        if not odd:
+            return 0.0
+    whole = shapely.symmetric_difference(shapely.union_all(mine), shapely.union_all(theirs))
+    return _thick(np.array([whole], dtype=object), slack)
+
+
+def _thick(marks: Geometries, slack: float) -> float:
+    parts = shapely.get_parts(marks)
+    areas, lengths = shapely.area(parts), shapely.length(parts)
+    # Twice the area by the length of its outline is the mean breadth of what is long and thin.
+    return float(areas[2 * areas > slack * lengths].sum())
+
+
+def _same(one: Geometries, other: Geometries) -> bool:
+    """Whether two sets of marks are the same to the bit, in any order."""
+    places = [np.unique(shapely.get_coordinates(marks), axis=0) for marks in (one, other)]
+    length = [float(shapely.length(marks).sum()) for marks in (one, other)]
+    return np.array_equal(places[0], places[1]) and math.isclose(*length, rel_tol=1e-9)

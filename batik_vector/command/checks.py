@@ -1,0 +1,324 @@
+"""What ``batik-vector check`` finds out: recipes and drawings are measured, and told of in plain values.
+
+A recipe is compiled and its artwork measured. An SVG is measured as it is drawn, whoever wrote it; where
+it carries a recipe of ours, this is compiled too, to learn what was promised: the cell, its drop and its
+symmetry, and whether the drawing is still the recipe's. Of a PDF, DXF or PNG the recipe alone is looked at.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Sequence
+from dataclasses import field, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import shapely
+
+from batik_vector.artwork import Artwork, Cell, Layer, Overlap
+from batik_vector.certificate import Asked, Certificate, Limits, certify, pointers
+from batik_vector.command.carried_recipes import Promise, bled, differences, promised
+from batik_vector.command.jobs import Job, made, read_jobs, warnings
+from batik_vector.compiling.compiler import compile_recipe, inspect
+from batik_vector.errors import BatikError, ExportError, Fault, GeometryError, RecipeError
+from batik_vector.export import render, write_all_whole
+from batik_vector.export.provenance import read_provenance
+from batik_vector.importing.svg import Reading, read_svg
+from batik_vector.recipe.loading import read_recipe
+from batik_vector.recipe.model import Recipe
+from batik_vector.recipe.reading.files import COMPILED
+from batik_vector.tiling.symmetry.groups import group
+from batik_vector.tiling.symmetry.machine_fit import per_cent
+from batik_vector.tiling.symmetry.repeats import parse_repeat, repeat_of
+from batik_vector.tiling.torus.torus import Window, clip_areas, polygons_of, to_step_grid
+from batik_vector.tiling.welding.weld import welded
+from batik_vector.values import frozen
+
+Tell = Callable[[str], None]
+SNIFFED = 512
+"""Bytes at the beginning of a file that show whether it is an SVG under another name."""
+
+
+@frozen
+class Wishes:
+    """What a call asks of everything that it checks.
+
+    ``repeat`` is how drawings without a recipe stand to one another, ``group`` the symmetry that is asked
+    for; both are empty where the call does not say.
+    """
+
+    repeat: str = ""
+    group: str = ""
+    limits: Limits = field(default_factory=Limits)
+
+    def __post_init__(self) -> None:
+        if self.group:
+            group(self.group)
+        if self.repeat:
+            parse_repeat(self.repeat)
+
+
+MEASURING = 0.002
+"""By how much more a tile may be found stretched than its recipe says."""
+
+
+@frozen(eq=False)
+class Found:
+    """What was measured of one source."""
+
+    source: str
+    artwork: Artwork
+    certificate: Certificate
+    facts: dict[str, Any]
+
+    @property
+    def passed(self) -> bool:
+        """Whether nothing is wrong."""
+        return bool(self.facts["passed"])
+
+
+def check_source(source: str, overrides: Sequence[str], wishes: Wishes, tell: Tell = lambda _: None) -> Found:
+    """Measure a recipe or a drawing.
+
+    Raises:
+        RecipeError: where it cannot be read, or the call asks of it what it cannot give.
+        SeamError: where a recipe has no clean seam.
+    """
+    if _is_drawing(source):
+        if overrides:
+            words = f"is measured as it is drawn, which --set {overrides[0]} cannot change: give its recipe"
+            raise _fault(source, words)
+        return _check_drawing(source, wishes, tell)
+    return _check_recipe(source, overrides, wishes, tell)
+
+
+def _fault(source: str, words: str) -> RecipeError:
+    return RecipeError([Fault(words, source=source)])
+
+
+def _is_drawing(source: str) -> bool:
+    """Whether a file is an SVG, by its name or by how it begins."""
+    path = Path(source)
+    if path.is_dir():
+        raise _fault(source, f'is a folder, expected files, such as "{path / "*.svg"}"')
+    if path.suffix.lower() == ".svg":
+        return path.exists()
+    if path.suffix.lower() in (".toml", *COMPILED):
+        return False
+    try:
+        with path.open("rb") as file:
+            head = file.read(SNIFFED)
+    except (OSError, ValueError):
+        return False
+    if b"\0" in head or head.startswith((b"\xff\xd8\xff", b"GIF8", b"%!PS", b"%PDF")):
+        raise _fault(source, "is neither a recipe (.toml) nor an SVG drawing")
+    return head.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<")
+
+
+def _check_recipe(source: str, overrides: Sequence[str], wishes: Wishes, tell: Tell) -> Found:
+    try:
+        (job,) = read_jobs([source], overrides)
+    except RecipeError as error:
+        if Path(source).suffix.lower() in COMPILED and any("no recipe" in str(f) for f in error.faults):
+            raise _fault(source, "carries no recipe, and only an SVG can be checked without one") from error
+        raise
+    artwork = made(job, tell)
+    tell("measuring")
+    certificate = _certified(source, artwork, wishes, _asked(job.recipe))
+    facts = inspect(artwork)
+    notes = _left_aside(wishes)
+    if Path(source).suffix.lower() in COMPILED:
+        notes.append("the recipe that it carries was checked, not what the file draws")
+    return _found(job, artwork, certificate, facts, checked="recipe", notes=notes)
+
+
+def _check_drawing(source: str, wishes: Wishes, tell: Tell) -> Found:
+    tell(f"reading {Path(source).name}")
+    reading = read_svg(source, wishes.repeat or "grid")
+    notes = list(reading.notes)
+    recipe = _recipe_of(source, notes) if reading.ours else None
+    if recipe is None:
+        tell("measuring")
+        certificate = _certified(source, reading.artwork, wishes, None)
+        return _drawing_found(source, reading, certificate, notes=notes)
+    notes += _left_aside(wishes)
+    if recipe.tile is None:
+        raise _fault(source, "shows borders alone, and no tile that could be certified")
+    try:
+        promise = promised(recipe, compile_recipe(recipe, progress=tell), reading)
+    except BatikError as error:
+        notes.append(f"its recipe does not compile, and was left aside: {error}")
+        return _drawing_found(source, reading, _certified(source, reading.artwork, wishes, None), notes=notes)
+    tell("measuring")
+    reading, promise = _as_promised(source, reading, promise)
+    if promise.broken and recipe.yardage is not None:
+        raise _fault(source, "shows the cloth, and not the tile that fills it: check its recipe instead")
+    certificate = _certified(source, reading.artwork, wishes, _asked(recipe))
+    return _drawing_found(source, reading, certificate, promise, notes)
+
+
+def _as_promised(source: str, reading: Reading, promise: Promise) -> tuple[Reading, Promise]:
+    """Read a drawing once more, with the drop and the bleed that its recipe knows of."""
+    larger = bled(promise, reading.page) if promise.broken else None
+    if larger is not None:
+        again = read_svg(source, larger.repeat, bleed=larger.artwork.bleed)
+        artwork = larger.known(again)
+        if not differences(artwork, larger.artwork):
+            return replace(again, artwork=artwork), larger
+    if promise.repeat != "grid" or reading.curved:
+        # Curves are true to the recipe's tolerance and no more: read finer, their joints would be kinks.
+        fine = promise.artwork.tolerance if reading.curved else reading.artwork.tolerance
+        reading = read_svg(source, promise.repeat, fine)
+    return replace(reading, artwork=promise.known(reading)), promise
+
+
+def _left_aside(wishes: Wishes) -> list[str]:
+    return ["its recipe says how it repeats, and --repeat is left aside"] if wishes.repeat else []
+
+
+def _recipe_of(source: str, notes: list[str]) -> Recipe | None:
+    """Return the recipe that a drawing carries, if this program can read it."""
+    try:
+        text = read_provenance(source).recipe
+        return read_recipe(text, f"the recipe in {source}") if text else None
+    except RecipeError as error:
+        notes.append(f"its recipe cannot be read, and was left aside: {error.faults[0].message}")
+        return None
+
+
+def _asked(recipe: Recipe) -> Asked | None:
+    """Return the symmetry group that a recipe promises of its whole tile, or nothing.
+
+    A placement with a symmetry or an origin of its own need not keep the tile's.
+    """
+    asked = repeat_of(recipe.tiling.repeat).group
+    if asked is None:
+        return None
+    kept = all(
+        (not each.symmetry or group(each.symmetry) == asked) and each.phase == (0.0, 0.0)
+        for each in recipe.place
+    )
+    across, along = recipe.tiling.stretch
+    apart = max(across / along, along / across) - 1
+    return Asked(asked.name, exactly=False, stretch=apart + MEASURING) if kept else None
+
+
+def _certified(source: str, artwork: Artwork, wishes: Wishes, asked: Asked | None) -> Certificate:
+    if wishes.group:
+        asked = Asked(wishes.group, stretch=asked.stretch if asked else 0.0)
+    try:
+        return certify(artwork, asked=asked, limits=wishes.limits)
+    except GeometryError as error:
+        raise _fault(source, str(error)) from error
+
+
+def _drawing_found(
+    source: str,
+    reading: Reading,
+    certificate: Certificate,
+    promise: Promise | None = None,
+    notes: Sequence[str] = (),
+) -> Found:
+    artwork = reading.artwork
+    broken = list(promise.broken) if promise else []
+    apart = differences(artwork, promise.artwork) if promise and not broken else []
+    facts = inspect(artwork)
+    for told, layer in zip(facts["layers"], artwork.layers, strict=True):
+        told["covers"] = _covers(layer, artwork.cell)
+    facts["page_mm"] = [round(side, 6) for side in reading.page]
+    # The normal form and equal bits on the seam are for what this program compiles.
+    facts["violations"], facts["seam"] = [], []
+    facts["broken"], facts["differences"] = broken, apart
+    recipe = promise.recipe if promise else None
+    return _found(source, artwork, certificate, facts, checked="geometry", notes=notes, recipe=recipe)
+
+
+def _covers(layer: Layer, cell: Cell) -> float:
+    """Return the share of the page that the areas of a layer cover, however they overlap."""
+    areas, none = polygons_of(to_step_grid(layer.areas), np.zeros(len(layer.areas), np.intp))
+    areas, none = clip_areas(areas, none, Window(0, 0, cell.columns, cell.rows))
+    if layer.ink.overlap is Overlap.OVERLAY:
+        areas, _ = welded(areas)
+    return round(float(shapely.area(areas).sum()) / (cell.columns * cell.rows), 6)
+
+
+def _found(
+    origin: Job | str,
+    artwork: Artwork,
+    certificate: Certificate,
+    facts: dict[str, Any],
+    *,
+    checked: str,
+    notes: Sequence[str] = (),
+    recipe: Recipe | None = None,
+) -> Found:
+    """Bring together what is told of a source."""
+    source = origin if isinstance(origin, str) else origin.source
+    recipe = recipe if isinstance(origin, str) else origin.recipe
+    told = {"recipe": source, "checked": checked, **facts}
+    told["warnings"] = [] if isinstance(origin, str) else warnings(origin.recipe, artwork)
+    told["notes"] = [*notes, *(_recipe_notes(recipe) if recipe else [])]
+    told.setdefault("broken", [])
+    told.setdefault("differences", [])
+    told["certificate"] = certificate.as_dict()
+    wrong = told["violations"] or told["seam"] or told["broken"] or not certificate.passed
+    told["passed"] = not wrong
+    return Found(source, artwork, certificate, told)
+
+
+def _recipe_notes(recipe: Recipe) -> list[str]:
+    across, along = recipe.tiling.stretch
+    notes = []
+    if (across, along) != (1.0, 1.0):
+        notes.append(f"stretched to fit: {per_cent(across)} across, {per_cent(along)} along the cloth")
+    if recipe.yardage is not None:
+        notes.append("the tile was measured, not the cloth that is filled from it")
+    return notes
+
+
+def pointer_files(sources: Sequence[str], folder: Path) -> dict[str, Path]:
+    """Return where the pictures of faults of each source go.
+
+    Raises:
+        RecipeError: where two of them would have the same name.
+        ExportError: where there can be no such folder.
+    """
+    there = next(each for each in (folder, *folder.parents, Path()) if each.exists())
+    if not there.is_dir():
+        raise ExportError(f"{there} is a file, expected a folder")
+    places: dict[str, Path] = {}
+    given = {os.path.realpath(source) for source in sources}
+    for source in sources:
+        place = folder / f"{Path(source).stem}-check.svg"
+        if os.path.realpath(place) in given:
+            raise _fault(source, f'its faults would be shown in "{place}", which is to be checked itself')
+        if place in places.values():
+            raise _fault(
+                source, f'its faults would be shown in "{place}", as another\'s would: check it alone'
+            )
+        places[source] = place
+    return places
+
+
+def write_pointers(found: Sequence[Found], places: dict[str, Path]) -> list[Path]:
+    """Write, all or none, a drawing for each source that has faults, with a mark at each of them.
+
+    Returns:
+        The files.
+
+    Raises:
+        ExportError: where they cannot be written.
+    """
+    files = []
+    for each in found:
+        if each.certificate.faults:
+            shown = pointers(each.artwork, each.certificate)
+            files.append((places[each.source], render(shown, "svg")))
+    try:
+        for path, _ in files:
+            path.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise ExportError(f"{error.filename} could not be made: {error.strerror}") from error
+    write_all_whole(files)
+    return [path for path, _ in files]

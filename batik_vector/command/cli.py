@@ -1,0 +1,328 @@
+"""The command ``batik-vector``. People read stderr; stdout holds what machines read.
+
+What is heavy is imported where it is used, so that ``--help`` answers at once.
+"""
+
+from __future__ import annotations
+
+import gc
+import os
+import signal
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any, NoReturn
+
+import click
+
+from batik_vector._version import __version__
+from batik_vector.errors import BatikError, RecipeError, unknown_name
+
+if TYPE_CHECKING:
+    from batik_vector.command.jobs import Job
+
+FORMATS = ("svg", "pdf", "dxf", "png")
+"""As in :data:`batik_vector.export.FORMATS`, which a test compares."""
+KINDS = ("flower", "four-square", "half-drop", "rosette")
+"""As in :data:`batik_vector.command.starters.STARTERS`, likewise."""
+SIGPIPE_EXIT, INTERRUPT_EXIT, TERMINATED_EXIT = 141, 130, 143
+
+
+def _complain(words: str) -> None:
+    for line in words.splitlines():
+        click.echo(f"batik-vector: error: {line}", err=True)
+
+
+class _Commands(click.Group):
+    """The commands, with every way they may end told in words and an exit code."""
+
+    def invoke(self, ctx: click.Context) -> Any:
+        try:
+            result = super().invoke(ctx)
+            sys.stdout.flush()
+            return result
+        except BatikError as error:
+            _complain(str(error))
+            ctx.exit(error.exit_code)
+        except KeyboardInterrupt:
+            _complain("interrupted")
+            ctx.exit(INTERRUPT_EXIT)
+        except BrokenPipeError:
+            # Whoever read has gone; what is left in the buffer must not be flushed into the pipe.
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            ctx.exit(SIGPIPE_EXIT)
+        except MemoryError:
+            _complain(
+                "this needs more memory than there is: lower the counts or levels, or allow more tolerance"
+            )
+            ctx.exit(2)
+        except RecursionError:
+            _complain("this is nested too deeply")
+            ctx.exit(2)
+
+
+@click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(__version__, prog_name="batik-vector")
+def cli() -> None:
+    """Compile batik patterns: a recipe goes in, repeatable tiles in true millimetres come out."""
+
+
+def _format_names(_ctx: click.Context, _param: click.Parameter, texts: Sequence[str]) -> list[str]:
+    names = [name.strip().lower() for text in texts for name in text.split(",") if name.strip()]
+    for name in names:
+        if name not in FORMATS:
+            raise click.BadParameter(unknown_name(name, FORMATS, "format"))
+    return names
+
+
+_recipes = click.argument("recipes", nargs=-1, required=True, metavar="RECIPE…")
+_set = click.option(
+    "--set",
+    "overrides",
+    multiple=True,
+    metavar="KEY=VALUE",
+    help="Set a value, as in motif.flower.petal.count=12 or place[0].width='200 mm'.",
+)
+_json = click.option("--json", "as_json", is_flag=True, help="Print one report for machines on stdout.")
+
+
+@cli.command("compile")
+@_recipes
+@click.option(
+    "-o", "folder", default=".", metavar="DIR", help="Where files go; made if missing.  [default: .]"
+)
+@click.option(
+    "-f",
+    "formats",
+    multiple=True,
+    callback=_format_names,
+    metavar="FORMAT,…",
+    help=f"{', '.join(FORMATS)}.  [default: what the recipe asks for, or svg]",
+)
+@_set
+@_json
+def compile_command(
+    recipes: Sequence[str], folder: str, formats: Sequence[str], overrides: Sequence[str], as_json: bool
+) -> None:
+    """Compile recipes to files.
+
+    A RECIPE is a TOML file, or an SVG, PDF, DXF or PNG that was compiled from one. The files of a recipe
+    are written all or not at all, as DIR/NAME.SUFFIX.
+    """
+    from pathlib import Path
+
+    from batik_vector.command.jobs import planned, read_jobs, run
+
+    _ready()
+    with _report(as_json) as report:
+        jobs = planned(read_jobs(recipes, overrides), Path(folder), formats)
+        for job, tell in _progress(jobs, as_json):
+            with _each(report):
+                done = run(job, tell)
+                report["recipes"].append(done)
+                _tell_files(done)
+
+
+def _tell_files(done: dict[str, Any]) -> None:
+    for file in done["files"]:
+        width, height = (f"{side:g}" for side in file["size_mm"])
+        size = _bytes(file["bytes"])
+        click.echo(f"{file['path']}  {size}  {width} × {height} mm  {file['seconds']:.2f} s", err=True)
+    from batik_vector.command.reports import made_of
+
+    for words in done["warnings"]:
+        click.echo(f"{done['recipe']}: warning: {words}", err=True)
+    for words in made_of(done):
+        click.echo(f"{done['recipe']}: {words}", err=True)
+    click.echo(f"{done['recipe']}: {done['vertices']:,} vertices in {done['seconds']:.2f} s", err=True)
+
+
+def _bytes(count: int) -> str:
+    return f"{count / 1e6:.1f} MB" if count >= 1e6 else f"{count / 1e3:.1f} kB"
+
+
+def _limit(name: str, metavar: str, says: str) -> Callable[[Any], Any]:
+    """Return an option that sets one of the certificate's limits."""
+    return click.option(f"--{name}", type=click.FloatRange(min=0), metavar=metavar, help=says)
+
+
+@cli.command("check")
+@click.argument("sources", nargs=-1, required=True, metavar="RECIPE|SVG…")
+@_set
+@click.option("--repeat", metavar="WORDS", help="How a drawing without a recipe repeats.  [default: grid]")
+@click.option("--group", metavar="NAME", help="The wallpaper group it ought to have, such as p4m.")
+@_limit("position", "MM", "How far a crossing and its twin may stand apart.  [default: 0.0001]")
+@_limit("tangent", "DEG", "How far a border may turn on the seam.  [default: 0.1]")
+@_limit("near", "MM", "How near to the seam slivers are looked for.  [default: 0.5]")
+@_limit("thin", "MM", "What is thinner along the seam is a sliver.  [default: 0.02]")
+@_limit("double", "MM", "Lines this close are drawn twice.  [default: 0.005]")
+@_limit("striping", "%", "Unevenness of columns or rows that is a fault; without it none is.")
+@click.option("--pointers", metavar="DIR", help="Write NAME-check.svg with a mark at each fault.")
+@_json
+def check_command(
+    sources: Sequence[str],
+    overrides: Sequence[str],
+    repeat: str | None,
+    group: str | None,
+    pointers: str | None,
+    as_json: bool,
+    **limits: float | None,
+) -> None:
+    """Certify tiles: do opposite edges meet, is anything drawn twice, which symmetry is there?
+
+    A recipe is compiled and measured. An SVG, whoever drew it, is measured as it is drawn, its page being
+    the tile. Nothing is written but what --pointers asks for. Exits with 1 where a tile has faults.
+    """
+    from pathlib import Path
+
+    from batik_vector.certificate import Limits
+    from batik_vector.command.checks import Wishes, check_source, pointer_files, write_pointers
+
+    _ready()
+    with _report(as_json) as report:
+        given = {name: value for name, value in limits.items() if value is not None}
+        wishes = Wishes(repeat or "", group or "", Limits(**given))
+        places = pointer_files(sources, Path(pointers)) if pointers is not None else {}
+        found = []
+        with _stages(as_json) as tell:
+            for source in sources:
+                with _each(report):
+                    each = check_source(source, overrides, wishes, tell)
+                    found.append(each)
+                    report["recipes"].append(each.facts)
+                    _tell_facts(each.facts)
+                    report["exit"] = max(report["exit"], 0 if each.passed else 1)
+        for path in write_pointers(found, places) if places else ():
+            click.echo(f'{path}  shows the faults in layer "check"', err=True)
+
+
+@contextmanager
+def _stages(quiet: bool) -> Iterator[Callable[[str], None]]:
+    """Show the stage of work that takes long."""
+    from tqdm import tqdm
+
+    with tqdm(bar_format="{desc} {elapsed}", delay=1, disable=quiet or None, leave=False) as bar:
+        yield lambda stage: bar.set_description_str(stage)
+
+
+def _tell_facts(facts: dict[str, Any]) -> None:
+    from batik_vector.command.reports import told
+
+    click.echo("\n".join(told(facts)), err=True)
+
+
+@contextmanager
+def _report(as_json: bool) -> Iterator[dict[str, Any]]:
+    """Collect the report of a call; print it if asked to, also where the call fails; exit as it says."""
+    report: dict[str, Any] = {"version": __version__, "exit": 0, "recipes": [], "faults": []}
+    with _each(report):
+        yield report
+    if as_json:
+        import json
+
+        click.echo(json.dumps(report, indent=2))
+    if report["exit"]:
+        click.get_current_context().exit(report["exit"])
+
+
+@contextmanager
+def _each(report: dict[str, Any]) -> Iterator[None]:
+    """Tell an error and go on, so that one recipe does not keep back the others."""
+    try:
+        yield
+    except BatikError as error:
+        _complain(str(error))
+        report["exit"] = max(report["exit"], error.exit_code)
+        if isinstance(error, RecipeError):
+            report["faults"] += [vars(fault) for fault in error.faults]
+        else:
+            report["faults"].append({"message": str(error), "key": "", "source": "", "line": None})
+
+
+def _progress(jobs: Sequence[Job], quiet: bool) -> Iterator[tuple[Job, Callable[[str], None]]]:
+    """Yield each job with a function that moves the bar: one step for a stage."""
+    if quiet or not sys.stderr.isatty():
+        yield from ((job, lambda stage: None) for job in jobs)
+        return
+    from tqdm import tqdm
+
+    steps = sum(len(job.recipe.place) + 1 + len(job.files) for job in jobs)
+    with tqdm(total=steps, delay=1, file=sys.stderr, leave=False) as bar:
+        for job in jobs:
+
+            def tell(stage: str) -> None:
+                bar.set_description(stage, refresh=False)
+                # A cloth also tells how far each of its inks has come.
+                if not stage.endswith("%"):
+                    bar.update()
+
+            yield job, tell
+
+
+@cli.command("new")
+@click.argument("name", required=False)
+@click.option(
+    "--kind",
+    type=click.Choice(KINDS),
+    default="flower",
+    show_default=True,
+    help="What it begins as.",
+)
+@click.option("-o", "path", metavar="FILE", help="The file to write.  [default: NAME.toml]")
+@click.option("--force", is_flag=True, help="Replace a file that is there.")
+def new_command(name: str | None, kind: str, path: str | None, force: bool) -> None:
+    """Write a recipe to begin with: short, commented, ready to compile."""
+    from batik_vector.command.starters import STARTERS, write_starter
+
+    written = write_starter(STARTERS / f"{kind}.toml", name, path, force)
+    click.echo(f"{written} written. Next: batik-vector compile {written}", err=True)
+
+
+@cli.command("schema")
+def schema_command() -> None:
+    """Print the JSON Schema of recipes, for editors."""
+    import json
+
+    from batik_vector.recipe.schema import schema
+
+    click.echo(json.dumps(schema(), indent=2))
+
+
+def _terminated(_number: int, _frame: object) -> NoReturn:
+    # As an exception it lets half-written files be cleared away.
+    raise SystemExit(TERMINATED_EXIT)
+
+
+@contextmanager
+def _brief() -> Iterator[None]:
+    """Spare a run of the command what only long ones profit from.
+
+    What is imported lives to the end: to look through it for garbage as it comes in, and once more at the
+    end, took a sixth of a short run. And each thread of OpenBLAS, whose work here is matrices of two rows,
+    takes milliseconds to start.
+    """
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    gc.disable()
+    try:
+        yield
+    finally:
+        gc.freeze()
+        gc.enable()
+
+
+def _ready() -> None:
+    """Begin to collect garbage, where it is not, once all that a command needs is imported."""
+    if not gc.isenabled():
+        gc.freeze()
+        gc.enable()
+
+
+def main() -> None:
+    """Run the command."""
+    signal.signal(signal.SIGTERM, _terminated)
+    with _brief():
+        cli(prog_name="batik-vector")
+
+
+if __name__ == "__main__":
+    main()

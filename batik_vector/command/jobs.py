@@ -1,0 +1,365 @@
+"""What a call asks for: which recipes are read, and which files each of them makes."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, BinaryIO
+
+import shapely
+
+from batik_vector.artwork import Artwork, Layer, Page
+from batik_vector.compiling.compiler import compile_cloth, compile_recipe
+from batik_vector.errors import ExportError, Fault, GeometryError, RecipeError, SeamError
+from batik_vector.export import FORMATS, write_all_whole, write_page
+from batik_vector.recipe.loading import load_recipe, located
+from batik_vector.recipe.model import OutputSpec, Recipe
+from batik_vector.recipe.outputs import OUTPUTS, Piece, PngOutput
+from batik_vector.recipe.reading.files import COMPILED
+from batik_vector.tiling.symmetry.machine_fit import pixel_advice
+from batik_vector.units import STEPS_PER_MM
+from batik_vector.values import frozen
+
+if TYPE_CHECKING:
+    from batik_vector.tiling.cloth.yardage import Yardage
+
+
+@frozen
+class Job:
+    """A recipe that has been read, and the files to make of it."""
+
+    source: str
+    recipe: Recipe
+    overrides: tuple[str, ...] = ()
+    files: tuple[tuple[Path, OutputSpec], ...] = ()
+
+
+def read_jobs(sources: Sequence[str], overrides: Sequence[str] = ()) -> list[Job]:
+    """Read recipes.
+
+    Raises:
+        RecipeError: with everything that is wrong in any of them.
+    """
+    jobs: list[Job] = []
+    faults: list[Fault] = []
+    for source in sources:
+        try:
+            jobs.append(Job(source, load_recipe(source, overrides), tuple(overrides)))
+        except RecipeError as error:
+            faults += error.faults
+    if faults:
+        raise RecipeError(faults)
+    return jobs
+
+
+def planned(jobs: Sequence[Job], folder: Path, formats: Sequence[str] = ()) -> list[Job]:
+    """Return jobs with the files each of them makes.
+
+    Args:
+        jobs: as read.
+        folder: where all files go.
+        formats: which formats are made; when left out those that the recipe asks for, or else SVG.
+
+    Raises:
+        RecipeError: where two files would have the same name, or an output asks for what the recipe has not.
+        ExportError: where a file cannot be written.
+    """
+    _check_folder(folder)
+    plans: list[Job] = []
+    faults: list[Fault] = []
+    taken: dict[str, Job] = {}
+    for job in jobs:
+        files = []
+        for output in _outputs(job.recipe, formats):
+            if fault := _unmet(job, output):
+                faults.append(fault)
+                continue
+            path = folder / _file_name(job, output)
+            place = os.path.normcase(path)
+            if place in taken:
+                faults.append(_twice(path, taken[place], job, output))
+                continue
+            taken[place] = job
+            _check_place(path, job)
+            files.append((path, output))
+        plans.append(Job(job.source, job.recipe, job.overrides, tuple(files)))
+    if faults:
+        raise RecipeError(faults)
+    return plans
+
+
+def _outputs(recipe: Recipe, formats: Sequence[str]) -> Iterator[OutputSpec]:
+    if not formats:
+        yield from recipe.output or (OUTPUTS["svg"](),)
+    for name in dict.fromkeys(formats):
+        yield from [each for each in recipe.output if each.format == name] or [OUTPUTS[name]()]
+
+
+def piece_of(recipe: Recipe, output: OutputSpec) -> Piece:
+    """Return what of a recipe's pattern an output shows."""
+    return output.piece or (Piece.YARDAGE if recipe.yardage is not None else Piece.TILE)
+
+
+def _unmet(job: Job, output: OutputSpec) -> Fault | None:
+    """Return what is wrong with an output that asks for what the recipe does not have."""
+    recipe, piece = job.recipe, piece_of(job.recipe, output)
+    if piece == Piece.YARDAGE and recipe.yardage is None:
+        key, words = "piece", 'asks for the yardage, and the recipe has none: expected a table "yardage"'
+    elif piece == Piece.TILE and recipe.tile is None:
+        key, words = "piece", "asks for the tile, and the recipe has borders alone: expected the yardage"
+    elif piece == Piece.YARDAGE and getattr(output, "repeat", (1, 1)) != (1, 1):
+        key, words = "repeat", 'repeats the tile, and the file shows the yardage: expected piece = "tile"'
+    elif piece == Piece.YARDAGE and bool(getattr(output, "bleed", 0)):
+        key, words = "bleed", 'is the tile\'s: expected yardage.bleed, or piece = "tile"'
+    else:
+        return None
+    where = _key_of(job, output)
+    fault = Fault(words, f"{where}.{key}" if where else key)
+    return located(RecipeError([fault]), job.source, recipe.source).faults[0]
+
+
+def _file_name(job: Job, output: OutputSpec) -> str:
+    stem = Path(job.source).stem
+    if Path(job.source).suffix.lower() in COMPILED:
+        # A compiled file is called after its recipe and its output: kawung-print.pdf.
+        endings = sorted((_ending(job.recipe, each) for each in job.recipe.output), key=len)
+        stem = stem.removesuffix(next((end for end in reversed(endings) if stem.endswith(end)), ""))
+    return f"{stem}{_ending(job.recipe, output)}{FORMATS[output.format].suffix}"
+
+
+def _ending(recipe: Recipe, output: OutputSpec) -> str:
+    """Return what the name of an output's file has behind its recipe's: beside a cloth, the tile says so."""
+    beside = recipe.yardage is not None and piece_of(recipe, output) == Piece.TILE
+    name = f"-{output.name}" if output.name else ""
+    return f"-tile{name}" if beside else name
+
+
+def _twice(path: Path, first: Job, job: Job, output: OutputSpec) -> Fault:
+    if first is not job:
+        words = (
+            f'would be written to "{path}", as {first.source} would: rename one, or use another folder for it'
+        )
+        return Fault(words, source=job.source)
+    words = f'would be written to "{path}", as an output before it would: give it a name of its own'
+    return located(RecipeError([Fault(words, _key_of(job, output))]), job.source, job.recipe.source).faults[0]
+
+
+def _key_of(job: Job, output: OutputSpec) -> str:
+    """Return the key of the table that asks for an output, or nothing where the call does."""
+    return next((f"output[{i}]" for i, each in enumerate(job.recipe.output) if each is output), "")
+
+
+def _check_folder(folder: Path) -> None:
+    there = next(each for each in (folder, *folder.parents, Path()) if os.path.lexists(each))
+    if not there.is_dir():
+        raise ExportError(f"{there} is a file, expected a folder")
+    if not os.access(there, os.W_OK | os.X_OK):
+        raise ExportError(f"{there} may not be written to")
+
+
+def _check_place(path: Path, job: Job) -> None:
+    if path.is_symlink() or path.is_dir():
+        what = "a folder" if path.is_dir() and not path.is_symlink() else "a symbolic link"
+        raise ExportError(f"{path} could not be written: it is {what}")
+    if job.overrides and path.exists() and os.path.samefile(path, job.source):
+        raise ExportError(f"{path} would replace the file it is read from: choose another folder with -o")
+
+
+@contextmanager
+def _on_behalf(job: Job, key: str = "") -> Iterator[None]:
+    """Give the errors of the work inside the job's file, and the line of the key at fault."""
+    try:
+        yield
+    except SeamError as error:
+        raise SeamError(f"{job.source}: {error}") from error
+    except GeometryError as error:
+        raise located(RecipeError([Fault(str(error), key)]), job.source, job.recipe.source) from error
+    except RecipeError as error:
+        raise located(error, job.source, job.recipe.source, job.overrides) from error
+
+
+def made(job: Job, tell: Callable[[str], None]) -> Artwork:
+    """Compile a job's recipe.
+
+    Raises:
+        RecipeError: with the file and the lines.
+        SeamError: where no clean seam is found.
+    """
+    with _on_behalf(job):
+        return compile_recipe(job.recipe, progress=tell)
+
+
+def render_output(page: Page, output: OutputSpec, sink: BinaryIO) -> None:
+    """Write a file: a cloth, or the tile repeated or carried beyond its edges as the output asks."""
+    if isinstance(page, Artwork):
+        page = _set_out(page, getattr(output, "repeat", (1, 1)), getattr(output, "bleed", 0.0))
+    write_page(page, sink, output.format, output.options)
+
+
+def _set_out(tile: Artwork, repeat: tuple[int, int], bleed: float) -> Artwork:
+    if repeat == (1, 1) and not bleed:
+        return tile
+    # Most files show the tile once, and do without all that fills a field with it.
+    from batik_vector.tiling.cloth.field import repeated, with_bleed
+
+    field = tile if repeat == (1, 1) else repeated(tile, *repeat)
+    return with_bleed(field, bleed) if bleed else field
+
+
+def run(job: Job, tell: Callable[[str], None]) -> dict[str, Any]:
+    """Compile a job and write its files, all of them or none; return the report."""
+    start = time.perf_counter()
+    recipe = job.recipe
+    tile = made(job, tell) if recipe.tile is not None else None
+    cloth: Yardage | None = None
+    if any(piece_of(recipe, output) == Piece.YARDAGE for _, output in job.files):
+        with _on_behalf(job):
+            cloth = compile_cloth(recipe, tile=tile, progress=tell)
+    reports: list[dict[str, Any]] = []
+    writers = []
+    notes = [] if tile is None else warnings(recipe, tile)
+    for path, output in job.files:
+        page: Page | None = cloth if piece_of(recipe, output) == Piece.YARDAGE else tile
+        if page is not None:
+            writers.append((path, _writer(job, path, output, page, tell, reports)))
+            notes += _page_warnings(path, output, page)
+    _write(writers)
+    return {
+        "recipe": job.source,
+        **_facts(tile, cloth),
+        "files": reports,
+        "seconds": round(time.perf_counter() - start, 3),
+        "warnings": notes,
+    }
+
+
+def _writer(
+    job: Job,
+    path: Path,
+    output: OutputSpec,
+    page: Page,
+    tell: Callable[[str], None],
+    reports: list[dict[str, Any]],
+) -> Callable[[BinaryIO], None]:
+    """Return what writes a file, and reports that it has."""
+
+    def write(sink: BinaryIO) -> None:
+        begun = time.perf_counter()
+        tell(f"writing {path.name}")
+        with _on_behalf(job, _key_of(job, output)):
+            render_output(page, output, sink)
+        reports.append(
+            {
+                "path": str(path),
+                "format": output.format,
+                "bytes": sink.tell(),
+                "size_mm": _size(page, output),
+                "seconds": round(time.perf_counter() - begun, 3),
+            }
+        )
+
+    return write
+
+
+def _facts(tile: Artwork | None, cloth: Yardage | None) -> dict[str, Any]:
+    """Return what a report says of a tile and of the cloth that it fills, either of which may be missing."""
+    facts: dict[str, Any] = {}
+    page: Page | None = tile or cloth
+    if page is not None:
+        facts = {
+            "title": page.title,
+            "cell_mm": [page.cell.width, page.cell.height],
+            "vertices": page.vertex_count,
+            "layers": [],
+        }
+    if tile is not None:
+        facts |= {"layers": [_layer(layer) for layer in tile.layers], **tile.facts}
+    if cloth is not None:
+        facts["yardage"] = {
+            "size_mm": [cloth.cell.width, cloth.cell.height],
+            "page_mm": _page_size(cloth),
+            "vertices_about": cloth.vertex_count,
+            "inks": [plate.ink.name for plate in cloth.plates if not plate.guide],
+            **cloth.facts,
+        }
+    return facts
+
+
+def _write(files: Sequence[tuple[Path, Callable[[BinaryIO], None]]]) -> None:
+    """Write all files or none; folders made for them go again where nothing comes of it."""
+    fresh: list[Path] = []
+    try:
+        for path, _ in files:
+            missing = [each for each in (path.parent, *path.parent.parents) if not each.exists()]
+            fresh += missing
+            path.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise ExportError(f"{error.filename} could not be made: {error.strerror}") from error
+    try:
+        write_all_whole(files)
+    except BaseException:
+        for folder in fresh:
+            with contextlib.suppress(OSError):
+                folder.rmdir()
+        raise
+
+
+def _layer(layer: Layer) -> dict[str, Any]:
+    vertices = sum(int(shapely.get_num_coordinates(marks).sum()) for marks in (layer.areas, layer.lines))
+    return {
+        "ink": layer.ink.name,
+        "colour": layer.ink.colour,
+        "areas": len(layer.areas),
+        "lines": len(layer.lines),
+        "vertices": vertices,
+    }
+
+
+def _size(page: Page, output: OutputSpec) -> list[float]:
+    if not isinstance(page, Artwork):
+        return _page_size(page)
+    across, up = getattr(output, "repeat", (1, 1))
+    margin = 2 * getattr(output, "bleed", 0.0)
+    return [round(page.cell.width * across + margin, 3), round(page.cell.height * up + margin, 3)]
+
+
+def _page_size(page: Page) -> list[float]:
+    """Return the breadth and height of a page with its margins, in mm."""
+    margins = page.margins
+    columns = page.cell.columns + margins.left + margins.right
+    rows = page.cell.rows + margins.bottom + margins.top
+    return [columns / STEPS_PER_MM, rows / STEPS_PER_MM]
+
+
+def warnings(recipe: Recipe, artwork: Artwork) -> list[str]:
+    """Return what the recipe names and the artwork does not show, and tiles of broken pixels."""
+    used = {name for _, placement in recipe.placements() for name in placement.motifs}
+    drawn = {layer.ink.name for layer in artwork.layers}
+    found = [f'motif "{name}" is placed nowhere' for name in recipe.motif if name not in used]
+    if not recipe.border:
+        found += [f'ink "{name}" draws nothing' for name in recipe.ink if name not in drawn]
+    for number, output in enumerate(recipe.output):
+        # A picture of several repeats is a preview, and no tile to print from.
+        tile = piece_of(recipe, output) == Piece.TILE
+        if isinstance(output, PngOutput) and tile and output.repeat == (1, 1):
+            advice = pixel_advice(artwork.cell, output.dpi)
+            found += [f"output[{number}]: {advice}"] if advice else []
+    return found
+
+
+def _page_warnings(path: Path, output: OutputSpec, page: Page) -> list[str]:
+    """Return what readers of a file may take wrongly."""
+    if output.format != "pdf":
+        return []
+    from batik_vector.export.pdf import units_per_user_unit
+
+    if (unit := units_per_user_unit(page)) > 1:
+        return [
+            f"{path.name}: over 5.08 m long, and so in units of {unit} points (UserUnit): a program that "
+            f"passes this over shows it {unit} times too small"
+        ]
+    return []

@@ -1,0 +1,102 @@
+"""Reports in words: what ``batik-vector check`` and ``compile`` print for people."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import Any
+
+from batik_vector.units import format_mm
+
+MOST_FAULTS = 20
+"""Faults of a tile that are told in words; the report for machines has them all."""
+
+TOLD_PERCENT = 0.001
+"""A stretch below this comes from the grid alone, and nobody need hear of it."""
+
+
+def told(facts: dict[str, Any]) -> list[str]:
+    """Return the lines that tell the facts of a tile, as :mod:`batik_vector.command.checks` gathers them."""
+    wrong = list(_faults(facts))
+    source, count = facts["recipe"], len(wrong)
+    lines = [f"{source}: {facts['title']}", *_drawing(facts), *_measures(facts["certificate"])]
+    if count > MOST_FAULTS:
+        wrong = [*wrong[:MOST_FAULTS], f"  and {count - MOST_FAULTS} more: --json tells them all"]
+    lines += wrong
+    lines += [f"  differs: {words}" for words in facts["differences"]]
+    lines += [f"  warning: {words}" for words in facts["warnings"]]
+    lines += [f"  note: {words}" for words in facts["notes"]]
+    if facts["passed"]:
+        lines.append(f"{source}: passed: opposite edges agree, nothing is drawn twice")
+    else:
+        lines.append(f"{source}: FAILED: {count} fault{'s' if count != 1 else ''}")
+    return lines
+
+
+def _drawing(facts: dict[str, Any]) -> Iterator[str]:
+    width, height = (format_mm(side) for side in facts["cell_mm"])
+    drop, axis = facts["drop"], facts["drop_axis"]
+    repeat = "straight" if drop == "0" else f"with a drop of {drop} of the {axis}"
+    how = "compiled from the recipe" if facts["checked"] == "recipe" else "read from what is drawn"
+    yield f"  tile {width} × {height} mm, repeats {repeat}; {facts['vertices']:,} vertices, {how}"
+    for layer in facts["layers"]:
+        marks = f"{layer['areas']:,} areas, {layer['lines']:,} lines"
+        yield f"  {layer['ink']} ({layer['colour']}): {marks}, covers {100 * layer['covers']:.1f} %"
+
+
+def _measures(certificate: dict[str, Any]) -> Iterator[str]:
+    found, asked = certificate["symmetry"]["found"], certificate["symmetry"]["asked"]
+    worst = certificate["measures"]
+    yield f"  symmetry {found}" + (f", {asked} asked for" if asked else "")
+    yield (
+        f"  seam: {worst['crossings']:,} crossings, {worst['unpaired']:,} unpaired, at worst "
+        f"{_small(worst['mismatch'])} mm and {_small(worst['turn'])}° apart"
+    )
+    yield (
+        f"  cut elsewhere: {_small(worst['identity'])} mm² differ; slivers {_small(worst['slivers'])} mm; "
+        f"drawn twice {_small(worst['doubled_length'])} mm, {_small(worst['doubled_area'])} mm²"
+    )
+    yield f"  striping: columns {worst['columns']:.1f} %, rows {worst['rows']:.1f} %"
+
+
+def _small(value: float) -> str:
+    """Return a figure that ought to be nought: two digits of it, or plain 0."""
+    return f"{value:.2g}" if value else "0"
+
+
+def _faults(facts: dict[str, Any]) -> Iterator[str]:
+    yield from (f"  fault: {words}" for words in facts["broken"])
+    yield from (f"  fault: {words}" for words in facts["violations"])
+    certified = facts["certificate"]["faults"]
+    for gap in facts["seam"] if not certified else ():
+        words = f"{gap['edges']} edges disagree from {gap['from_mm']:g} to {gap['to_mm']:g} mm"
+        yield f"  fault: {gap['ink']}: {words}"
+    for fault in certified:
+        x, y = fault["where_mm"]
+        ink = f"{fault['ink']}: " if fault["ink"] else ""
+        yield f"  at {x:.3f}, {y:.3f} mm: {ink}{fault['words']}"
+
+
+def made_of(done: dict[str, Any]) -> Iterator[str]:
+    """Yield in lines how a compiled recipe came out: what was stretched, what was tossed."""
+    across, along = done.get("stretch_percent", (0.0, 0.0))
+    if max(abs(across), abs(along)) >= TOLD_PERCENT:
+        yield f"stretched by {across:+.3g} % across and {along:+.3g} % along the cloth"
+    for toss in done.get("tossed", ()):
+        counts = ", ".join(
+            f"{count} {name}" for name, count in zip(toss["motifs"], toss["counts"], strict=True)
+        )
+        yield (
+            f"place[{toss['place']}]: {counts} tossed, {100 * toss['covers']:.1f} % covered, "
+            f"{toss['per_m2']:,.0f} per m², least gap {toss['distance']:g} mm"
+        )
+    for number, fits in _by_border(done.get("yardage", {}).get("borders", ())).items():
+        sides = ", ".join(f"{fit['side']} {fit['periods']:g}" for fit in fits)
+        worst = max((fit["stretch"] for fit in fits), key=lambda stretch: abs(stretch - 1))
+        yield f"border[{number}]: periods {sides}; stretched by {100 * (worst - 1):+.3g} % at most"
+
+
+def _by_border(fits: Iterable[dict[str, Any]]) -> dict[int, list[dict[str, Any]]]:
+    found: dict[int, list[dict[str, Any]]] = {}
+    for fit in fits:
+        found.setdefault(fit["border"], []).append(fit)
+    return found

@@ -1,0 +1,154 @@
+"""From a recipe to an artwork: the story, told once.
+
+Every placement is drawn, set out by its layout and brought to millimetres as sheets; the sheets are
+assembled on the torus; what leaves is an :class:`~batik_vector.artwork.Artwork` in the normal form.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, replace
+from typing import TYPE_CHECKING, Any
+
+import shapely
+
+from batik_vector._version import __version__
+from batik_vector.artwork import Artwork, Cell, DropAxis, Ink, Provenance, violations
+from batik_vector.compiling.placements import Placed, place
+from batik_vector.errors import Fault, RecipeError, blame
+from batik_vector.recipe.model import Recipe
+from batik_vector.tiling.torus import seams
+from batik_vector.tiling.torus.torus import to_step_grid
+from batik_vector.tiling.welding.stack import assemble
+from batik_vector.units import STEPS_PER_MM, to_steps
+
+if TYPE_CHECKING:
+    from batik_vector.tiling.cloth.yardage import Yardage
+
+Progress = Callable[[str], None]
+
+
+def compile_recipe(recipe: Recipe, *, progress: Progress | None = None) -> Artwork:
+    """Compile a recipe to the artwork of its tile.
+
+    Args:
+        recipe: as read by :func:`~batik_vector.recipe.loading.load_recipe`, or built in Python.
+        progress: called with a word or two as each stage begins.
+
+    Raises:
+        RecipeError: naming the key at fault.
+        SeamError: where no clean seam is found.
+    """
+    tell = progress or (lambda stage: None)
+    inks = {name: Ink(name, spec.colour, spec.width, spec.overlap) for name, spec in recipe.ink.items()}
+    unit = recipe.tiling.unit()
+    sheets = []
+    spent = 0
+    before: list[Placed] = []
+    for number, placement in enumerate(recipe.place):
+        tell(f"placing {', '.join(placement.motifs)}")
+        with blame(f"place[{number}]"):
+            orbit = recipe.tiling.orbit(placement.symmetry, placement.phase, placement.spread)
+            placed = place(placement, recipe, unit, inks, recipe.limit - spent, orbit, before)
+        before.append(placed)
+        sheets += placed.sheets
+        spent += placed.vertices
+    tell("cutting the tile")
+    cell = recipe.tiling.cell()
+    with blame("tile"):
+        lattice = recipe.tiling.repeating().lattice
+        layers, borders = assemble(sheets, list(inks.values()), cell, lattice, recipe.tolerance)
+    if not layers:
+        raise RecipeError("nothing is left to draw: every mark is covered or cut away")
+    return replace(_blank(recipe, cell), layers=layers, borders=borders, facts=_facts(recipe, before))
+
+
+def _facts(recipe: Recipe, placed: Sequence[Placed]) -> dict[str, Any]:
+    """Return how the tile was stretched, in per cent, and how its tosses came out."""
+    stretch = [round(100 * (factor - 1), 6) for factor in recipe.tiling.stretch]
+    tosses = [
+        {"place": number, **asdict(each.tossed.report)}
+        for number, each in enumerate(placed)
+        if each.tossed is not None
+    ]
+    return ({"stretch_percent": stretch} if any(stretch) else {}) | ({"tossed": tosses} if tosses else {})
+
+
+def compile_cloth(
+    recipe: Recipe, *, tile: Artwork | None = None, progress: Progress | None = None
+) -> Yardage:
+    """Compile a recipe to its yardage: the cloth that it fills from its tile, with its borders.
+
+    Args:
+        recipe: with a ``yardage``; one that has borders alone needs no tile.
+        tile: the recipe's tile, where it has been compiled already.
+        progress: called with a word or two as each stage begins, and while the cloth is drawn.
+
+    Raises:
+        RecipeError: naming the key at fault.
+        SeamError: where no clean seam is found.
+    """
+    # Most recipes are of a tile alone, and do without all that lays out a cloth.
+    from batik_vector.compiling.borders import compile_borders
+    from batik_vector.tiling.cloth.yardage import compile_yardage
+
+    spec = recipe.yardage
+    if spec is None:
+        raise RecipeError([Fault("missing: the recipe says of no cloth how large it is", "yardage")])
+    if tile is None and recipe.tile is not None:
+        tile = compile_recipe(recipe, progress=progress)
+    if tile is None:
+        tile = _blank(recipe, Cell(to_steps(spec.width), to_steps(spec.length or 0)))
+    width, length = (steps / STEPS_PER_MM for steps in spec.size(tile.cell))
+    frame = compile_borders(recipe.border, recipe, (0.0, 0.0, width, length)) if recipe.border else None
+    with blame("yardage"):
+        page = compile_yardage(tile, spec, frame=frame, inks=list(recipe.ink), progress=progress)
+    return replace(page, facts={"borders": [asdict(fit) for fit in frame.fits]}) if frame else page
+
+
+def _blank(recipe: Recipe, cell: Cell) -> Artwork:
+    """Return the page of a recipe with nothing on it."""
+    return Artwork(
+        title=recipe.title,
+        cell=cell,
+        layers=(),
+        cloth=recipe.cloth.colour,
+        tolerance=recipe.tolerance,
+        provenance=Provenance(recipe.source, recipe.seed, __version__),
+    )
+
+
+def inspect(artwork: Artwork) -> dict[str, Any]:
+    """Return the facts of an artwork and whatever is wrong with it, as plain values.
+
+    ``violations`` lists breaks of the normal form; ``seam`` the stretches, in mm, that one edge covers
+    and its opposite does not. An artwork is sound when both are empty.
+    """
+    cell_area = artwork.cell.width * artwork.cell.height
+    breaks = []
+    for layer in artwork.layers:
+        for axis, low, high in seams.mismatch(to_step_grid(layer.areas), artwork.cell).tolist():
+            if (layer.ink.name, axis, low, high) in artwork.borders:
+                continue
+            side = "left and right" if axis == 0 else "lower and upper"
+            ends = {"from_mm": low / STEPS_PER_MM, "to_mm": high / STEPS_PER_MM}
+            breaks.append({"ink": layer.ink.name, "edges": side, **ends})
+    return {
+        "title": artwork.title,
+        "cell_mm": [artwork.cell.width, artwork.cell.height],
+        "drop": str(artwork.cell.drop),
+        "drop_axis": "height" if artwork.cell.axis == DropAxis.COLUMN else "width",
+        "vertices": artwork.vertex_count,
+        "layers": [
+            {
+                "ink": layer.ink.name,
+                "colour": layer.ink.colour,
+                "areas": len(layer.areas),
+                "lines": len(layer.lines),
+                "covers": round(float(shapely.area(layer.areas).sum()) / cell_area, 6),
+            }
+            for layer in artwork.layers
+        ],
+        "violations": violations(artwork),
+        "seam": breaks,
+    }

@@ -1,0 +1,177 @@
+"""The recipe as values: what a recipe file says once it is read and every name in it is known."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import field
+from typing import Annotated, TypeAlias
+
+from batik_vector.artwork import Overlap
+from batik_vector.errors import Fault, GeometryError, RecipeError
+from batik_vector.fields import (
+    HIDDEN,
+    Between,
+    Colour,
+    Length,
+    OneOf,
+    Says,
+    check,
+    choice,
+    parse_colour,
+)
+from batik_vector.recipe.border import BorderSpec
+from batik_vector.recipe.motif import MOTIFS, Motif, Treatment
+from batik_vector.recipe.outputs import AnyOutput, OutputSpec
+from batik_vector.recipe.placement import Placement
+from batik_vector.recipe.references import Path, dotted, places, unknown_references
+from batik_vector.tiling.cloth.spec import YardageSpec
+from batik_vector.tiling.symmetry.repeats import Cut, TileSpec
+from batik_vector.values import frozen
+
+AnyMotif: TypeAlias = Annotated[Motif, OneOf(lambda: MOTIFS, "motif")]
+
+
+@frozen(kw_only=True)
+class InkSpec:
+    """One bath, screen, pen or tool. The order of the inks in the recipe is their painting order."""
+
+    colour: Annotated[Colour, Says("colour on screen")] = "#1a1a1a"
+    width: Annotated[Annotated[Length, Between(0.01, 100)], Says("breadth of a line drawn with it")] = 1.0
+    overlap: Annotated[Overlap, Says("what its marks do to one another and to inks beneath")] = Overlap.WELD
+
+    def __post_init__(self) -> None:
+        check(self)
+        object.__setattr__(self, "colour", _colour(self.colour))
+        object.__setattr__(self, "overlap", choice(Overlap, self.overlap, "overlap"))
+
+
+@frozen(kw_only=True)
+class ClothSpec:
+    """The ground."""
+
+    colour: Annotated[Colour, Says("colour on screen")] = "#ffffff"
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "colour", _colour(self.colour))
+
+
+def _colour(text: str) -> str:
+    try:
+        return parse_colour(text)
+    except ValueError as error:
+        raise GeometryError(f'colour = "{text}", {error}') from None
+
+
+@frozen(kw_only=True)
+class Recipe:
+    """All that is needed to make an artwork."""
+
+    motif: Annotated[dict[str, AnyMotif], Says("the motifs, by name")]
+    place: Annotated[tuple[Placement, ...], Says("what lies on the cloth, bottom first")] = ()
+    tile: Annotated[TileSpec | None, Says("the repeat; left out where borders alone are drawn")] = None
+    yardage: Annotated[YardageSpec | None, Says("a cloth of given size, filled from the tile")] = None
+    border: Annotated[tuple[BorderSpec, ...], Says("bands along the sides of the yardage")] = ()
+    title: Annotated[str, Says("what the design is called")] = "Untitled"
+    tolerance: Annotated[
+        Annotated[Length, Between(0.002, 5)], Says("how far a drawn edge may stand from the true curve")
+    ] = 0.02
+    seed: Annotated[int, Between(0, 2**63 - 1), Says("everything random hangs on it")] = 0
+    limit: Annotated[int, Between(1000, 50_000_000), Says("vertices past which the recipe is refused")] = (
+        10_000_000
+    )
+    ink: Annotated[dict[str, InkSpec], Says("the inks, by name, in painting order")] = field(
+        default_factory=lambda: {"ink": InkSpec()}
+    )
+    cloth: Annotated[ClothSpec, Says("the ground")] = field(default_factory=ClothSpec)
+    output: Annotated[tuple[AnyOutput, ...], Says("files to write")] = ()
+    source: str = field(default="", metadata={HIDDEN: True})
+
+    __pydantic_config__ = {"strict": True, "allow_inf_nan": False}  # noqa: RUF012
+
+    def __post_init__(self) -> None:
+        check(self)
+        faults = [fault for _, fault in unknown_references(self)]
+        faults += self._missing() + self._bad_names() + self._without_ink() + self._bad_symmetries()
+        if faults:
+            raise RecipeError(faults)
+
+    @property
+    def tiling(self) -> TileSpec:
+        """The repeat.
+
+        Raises:
+            RecipeError: where the recipe has none, but borders alone.
+        """
+        if self.tile is None:
+            raise RecipeError([Fault("missing: the recipe has borders alone, and no tile", "tile")])
+        return self.tile
+
+    def placements(self) -> Iterator[tuple[Path, Placement]]:
+        """Yield every placement, those of the tile first, and where it stands in the recipe."""
+        return places(self)
+
+    def _missing(self) -> list[Fault]:
+        """Return what a recipe cannot do without."""
+        bare = bool(self.border) and not self.place and self.tile is None
+        found = []
+        if not self.motif and not bare:
+            found.append(Fault("expected at least one", "motif"))
+        if not self.place and not bare:
+            words = "missing, expected a list of tables: write [[place]] (what lies on the cloth)"
+            found.append(Fault(words, "place"))
+        if self.tile is None and not bare:
+            found.append(Fault("missing, expected a table (the repeat)", "tile"))
+        if self.border and self.yardage is None:
+            words = "missing, expected a table: the size of the cloth that borders go round"
+            found.append(Fault(words, "yardage"))
+        if bare and self.yardage is not None and self.yardage.length is None:
+            found.append(
+                Fault("missing: a cloth of borders alone has no repeat to be as long as", "yardage.length")
+            )
+        return found
+
+    def _bad_names(self) -> list[Fault]:
+        """Return the names that a file could not show."""
+        return [
+            Fault("expected a name of 1 to 80 printable characters", dotted((what, name)))
+            for what, names in (("motif", self.motif), ("ink", self.ink))
+            for name in names
+            if not (0 < len(name) <= 80 and name.isprintable())
+        ]
+
+    def _bad_symmetries(self) -> list[Fault]:
+        """Return the placements whose symmetry the repeat does not admit."""
+        found = []
+        for number, placement in enumerate(self.place if self.tile else ()):
+            try:
+                self.tiling.orbit(placement.symmetry, placement.phase, placement.spread)
+            except GeometryError as error:
+                key = "symmetry" if placement.symmetry else "region"
+                found.append(Fault(str(error), f"place[{number}].{key}"))
+        return found
+
+    def _without_ink(self) -> list[Fault]:
+        """Return the placements and rails that leave open which of several inks draws them."""
+        if len(self.ink) == 1:
+            return []
+        several = "several inks" if self.ink else "no inks"
+        words = f"missing: the recipe has {several}, expected one of {', '.join(self.ink)}"
+        open_places = [path for path, placement in self.placements() if self._needs_ink(placement)]
+        rails: list[Path] = [
+            ("border", number, "rails", index)
+            for number, border in enumerate(self.border)
+            for index, rail in enumerate(border.rails)
+            if not rail.ink
+        ]
+        return [Fault(words, dotted((*path, "ink"))) for path in open_places + rails]
+
+    def _needs_ink(self, placement: Placement) -> bool:
+        return not placement.ink and any(
+            not part.ink and part.treatment != Treatment.CUT
+            for name in placement.motifs
+            if name in self.motif
+            for part in self.motif[name].parts()
+        )
+
+
+__all__ = ["ClothSpec", "Cut", "InkSpec", "OutputSpec", "Placement", "Recipe", "TileSpec", "YardageSpec"]

@@ -1,0 +1,102 @@
+"""A placement as a recipe tells it: a motif set on the cloth, or along a border, by a layout."""
+
+from __future__ import annotations
+
+from dataclasses import field
+from typing import Annotated, TypeAlias
+
+from batik_vector.errors import GeometryError
+from batik_vector.fields import Between, Length, Names, Says, Text, check, choice
+from batik_vector.recipe.references import quoted
+from batik_vector.tiling.layouts import AnyLayout, Single, Stripes, Toss
+from batik_vector.tiling.symmetry.groups import GROUP_PATTERN, group, group_name
+from batik_vector.tiling.symmetry.spread import Spread
+from batik_vector.values import frozen
+
+MAX_SIDE_MM = 20_000.0
+Side: TypeAlias = Annotated[Length, Between(0.1, MAX_SIDE_MM)]
+Place2D: TypeAlias = tuple[
+    Annotated[Length, Between(-MAX_SIDE_MM, MAX_SIDE_MM)],
+    Annotated[Length, Between(-MAX_SIDE_MM, MAX_SIDE_MM)],
+]
+
+
+@frozen(kw_only=True)
+class Placement:
+    """A motif set on the cloth by a layout, at a size and a place."""
+
+    motif: Annotated[Names, Says("name of the motif; a toss may have several")]
+    layout: Annotated[AnyLayout, Says("how copies are set out")] = field(default_factory=Single)
+    width: Annotated[
+        Side | None,
+        Says("breadth of all copies before they are turned, without bodies of lines; of one in a ground"),
+    ] = None
+    scale: Annotated[Annotated[Length, Between(1e-3, MAX_SIDE_MM)] | None, Says("mm to one motif unit")] = (
+        None
+    )
+    at: Annotated[
+        Place2D | None, Says("where the layout's origin lies; the middle of the repeat when left out")
+    ] = None
+    turn: Annotated[float, Between(-360, 360), Says("degrees the whole is turned")] = 0.0
+    ink: Annotated[str, Says("ink of the elements that name none; needed where there are several")] = ""
+    symmetry: Annotated[
+        str,
+        Text(group_name, "one of the 17 wallpaper groups, such as p4m", GROUP_PATTERN),
+        Says("wallpaper group that multiplies it; the repeat's own when left out"),
+    ] = ""
+    phase: Annotated[Place2D, Says("move of the symmetry's origin, and of the placement with it")] = (
+        0.0,
+        0.0,
+    )
+    region: Annotated[
+        Spread | None,
+        Says("what the symmetry multiplies; in a mirror repeat cut, but for a toss, and free elsewhere"),
+    ] = None
+    gap: Annotated[
+        Annotated[Length, Between(0, 1000)] | None,
+        Says("ground kept bare round the whole motif by cutting what is placed beneath"),
+    ] = None
+
+    def __post_init__(self) -> None:
+        check(self)
+        if self.symmetry:
+            group(self.symmetry)
+        if self.region is not None:
+            object.__setattr__(self, "region", choice(Spread, self.region, "region"))
+        if self.width is not None and self.scale is not None:
+            raise GeometryError("width and scale are both given: expected one of them")
+        if self.width is None and self.scale is None:
+            raise GeometryError(
+                'neither width nor scale is given: expected one of them, such as width = "280 mm"'
+            )
+        self._refuse_contradictions()
+
+    def _refuse_contradictions(self) -> None:
+        """Raise where the layout cannot do what other keys ask for."""
+        if isinstance(self.motif, list):
+            object.__setattr__(self, "motif", tuple(self.motif))
+        if len(self.motifs) != 1 and not isinstance(self.layout, Toss):
+            raise GeometryError(f"motif = {self._listed()}: only a toss mixes several, expected one")
+        if len(set(self.motifs)) < len(self.motifs):
+            raise GeometryError(
+                f"motif = {self._listed()}: a motif is named twice, expected weights in the layout instead"
+            )
+        if isinstance(self.layout, Toss) and self.at is not None:
+            x, y = self.at
+            raise GeometryError(f"at = [{x:g}, {y:g}]: a toss fills the whole repeat, expected no place")
+        if isinstance(self.layout, Toss | Stripes) and self.turn:
+            what = "turn of the layout" if isinstance(self.layout, Toss) else "winding of the layout"
+            raise GeometryError(f"turn = {self.turn:g}: expected the {what} instead")
+
+    def _listed(self) -> str:
+        return "[" + ", ".join(quoted(name) for name in self.motifs[:6]) + "]"
+
+    @property
+    def spread(self) -> Spread | None:
+        """What its symmetry multiplies; tossed marks stay whole, whatever the repeat does with others."""
+        return self.region or (Spread.FREE if isinstance(self.layout, Toss) else None)
+
+    @property
+    def motifs(self) -> tuple[str, ...]:
+        """The names of its motifs."""
+        return (self.motif,) if isinstance(self.motif, str) else self.motif

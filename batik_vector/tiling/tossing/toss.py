@@ -1,0 +1,361 @@
+"""Tosses: marks scattered over the repeat by chance, evenly, and clear of one another across every seam."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+import shapely
+
+from batik_vector.artwork import Geometries
+from batik_vector.errors import GeometryError, TooLargeError
+from batik_vector.geometry.maps.affine import IDENTITY, Affine
+from batik_vector.geometry.maps.affines import Affines, turns
+from batik_vector.geometry.sampling import Array
+from batik_vector.tiling.layouts.grounds import Toss
+from batik_vector.tiling.torus.torus import as_steps
+from batik_vector.tiling.tossing.darts import Dice, Rules, Spacing, thrown
+from batik_vector.tiling.tossing.marks import Field, Kit, Poses
+from batik_vector.tiling.tossing.scatter import Scatter, Torus
+from batik_vector.tiling.tossing.settling import settled
+from batik_vector.units import STEPS_PER_MM, format_mm
+from batik_vector.values import frozen
+
+MOST_MARKS = 20_000
+"""Marks of one toss. A cloth of more is a ground: smaller, and repeated."""
+
+OUTLINE_SHARE = 1 / 400
+"""How far an outline may be simplified, as a share of the breadth of a mark; see :func:`outline`."""
+
+NOTCH_SHARE = 0.08
+"""Half the breadth of the notches in a mark, as a share of its own, that are closed to others: nobody sees
+a bud between two petals as a bud."""
+
+ROUNDS = 3
+"""How often marks are settled and the holes that this opens thrown at again."""
+
+USUAL_COVER = 0.62
+"""Share of the repeat that marks and half the distance round each cover when no more fit: about."""
+
+NARROWING = 0.72
+"""What is left of the early distances from one throw to the next."""
+
+EARLY_TRIES = 150
+"""Darts that must miss in a row before marks that are few are thrown closer together."""
+
+
+@frozen
+class TossReport:
+    """What a toss has put down on one repeat.
+
+    Attributes:
+        motifs: their names, and ``counts`` how many there are of each, images under the symmetry included.
+        covers: share of the repeat that the marks cover.
+        per_m2: marks per square metre of cloth.
+        distance: the least gap in mm between two marks of it, or one and what it keeps clear of, measured
+            across the seam as well. A little more than asked for, as outlines are rounded outwards.
+        darts: how many were thrown.
+    """
+
+    motifs: tuple[str, ...]
+    counts: tuple[int, ...]
+    covers: float
+    per_m2: float
+    distance: float
+    darts: int
+
+
+@frozen
+class Marks:
+    """The motifs of a toss as they are at their least size, each in its own frame, in mm.
+
+    ``bodies`` are all that is drawn, shape (k,); ``slack`` is how far a finished mark may stand beyond;
+    ``reach`` how far beyond it a mark cuts what lies beneath, so that no other may come as near.
+    """
+
+    names: tuple[str, ...]
+    bodies: Geometries
+    slack: float
+    reach: float = 0.0
+
+
+@frozen
+class Tossed:
+    """A finished toss.
+
+    Attributes:
+        copies: for each motif the maps that carry it, at its least size in mm, to its places on cloth.
+        field: all marks in grid steps, images under the symmetry included, translates not.
+        report: how it went.
+    """
+
+    copies: tuple[Affines, ...]
+    field: Field
+    report: TossReport
+
+
+def outline(body: shapely.Geometry, distance: float, slack: float) -> shapely.Geometry:
+    """Return a coarse shape that holds a mark (mm) and as much as it may stand beyond its body.
+
+    Holes are filled and narrow notches closed, so that marks lie beside one another and not inside.
+    """
+    low_x, low_y, high_x, high_y = shapely.bounds(body)
+    breadth = math.hypot(high_x - low_x, high_y - low_y)
+    close = max(distance / 2, NOTCH_SHARE * breadth)
+    closed = shapely.buffer(shapely.buffer(body, close, quad_segs=4), -close, quad_segs=4)
+    filled = shapely.union_all(shapely.polygons(shapely.get_exterior_ring(shapely.get_parts(closed))))
+    step = max(breadth * OUTLINE_SHARE, slack)
+    # Four pieces to a quarter turn reach to 0.98 of the radius, and simplifying takes off a step at most.
+    grown = shapely.buffer(shapely.union(filled, body), slack + 1.1 * step, quad_segs=4)
+    return shapely.simplify(grown, step * 0.95)
+
+
+def toss(spec: Toss, marks: Marks, torus: Torus, taken: Field, seed: int) -> Tossed:
+    """Scatter marks over the torus.
+
+    Args:
+        spec: how many, how far apart and how turned.
+        marks: the motifs.
+        torus: the repeat, and the symmetry that multiplies every mark.
+        taken: what the marks keep clear of, beside one another.
+        seed: of the chances, where the spec has none of its own.
+
+    Raises:
+        GeometryError: where the marks asked for do not fit, with how many do.
+        TooLargeError: with the estimate, before any is set down.
+    """
+    spec = replace(spec, distance=max(spec.distance, marks.reach))
+    _check_distance(spec, torus)
+    outlines = np.array([outline(body, spec.distance, marks.slack) for body in marks.bodies], dtype=object)
+    kit = Kit.of(as_steps(outlines))
+    _refuse_too_many(spec, kit, torus)
+    scatter = Scatter(torus, kit, spec.size[1] / spec.size[0], taken)
+    darts = _filled(scatter, spec, marks, Dice(seed if spec.seed is None else spec.seed))
+    _check_count(spec, scatter, marks)
+    field = Field.joined([scatter.field.moved(operation) for operation in torus.operations])
+    return Tossed(
+        tuple(_copies(scatter, motif) for motif in range(len(kit.outlines))),
+        field,
+        _report(scatter, spec, marks, darts),
+    )
+
+
+def _check_distance(spec: Toss, torus: Torus) -> None:
+    shortest = torus.shortest / STEPS_PER_MM
+    if spec.distance >= shortest:
+        raise GeometryError(
+            f"distance = {format_mm(spec.distance)} mm: the repeat is only {format_mm(shortest)} mm round, "
+            "expected less than that"
+        )
+
+
+def _refuse_too_many(spec: Toss, kit: Kit, torus: Torus) -> None:
+    side = np.sqrt(shapely.area(kit.outlines)) + spec.distance * STEPS_PER_MM
+    about = torus.area / float(np.mean(side)) ** 2
+    if spec.count is None and about > MOST_MARKS:
+        raise TooLargeError(
+            f"about {about:,.0f} marks would fit, past {MOST_MARKS:,}: expected a count, larger marks or a "
+            "smaller repeat"
+        )
+
+
+def _rules(spec: Toss, motifs: int) -> Rules:
+    if spec.weights and len(spec.weights) != motifs:
+        listed = ", ".join(f"{weight:g}" for weight in spec.weights[:8])
+        raise GeometryError(f"weights = [{listed}]: expected one for each motif, {motifs} in all")
+    weights = np.array(spec.weights or (1.0,) * motifs)
+    return Rules(
+        spec.turn, spec.turns, (1.0, spec.size[1] / spec.size[0]), spec.flip, weights / weights.sum()
+    )
+
+
+def _filled(scatter: Scatter, spec: Toss, marks: Marks, dice: Dice) -> int:
+    """Throw and settle until the scatter is as the spec asks; return how many darts that took."""
+    rules = _rules(spec, len(marks.names))
+    plan = _Plan.of(spec, marks, rules, scatter)
+    darts = _thrown_and_settled(scatter, spec, rules, dice, plan, plan.early(spec.distance * STEPS_PER_MM))
+    if spec.count is not None and len(scatter) < spec.count:
+        # Marks that began far apart waste room that a count close to the most that fit cannot spare.
+        poses, field = scatter.poses, scatter.field
+        scatter.set(Poses.none(), field.take(np.empty(0, np.intp)), 0.0)
+        darts += _thrown_and_settled(scatter, spec, rules, dice, plan, ())
+        if len(poses) >= len(scatter):
+            scatter.set(poses, field, 0.0)
+    return darts
+
+
+def _thrown_and_settled(
+    scatter: Scatter,
+    spec: Toss,
+    rules: Rules,
+    dice: Dice,
+    plan: _Plan,
+    early: Iterable[tuple[Spacing, int]],
+) -> int:
+    distance = spec.distance * STEPS_PER_MM
+    darts = 0
+    for spacing, kind in early:
+        darts += thrown(scatter, rules, dice, spacing, EARLY_TRIES, partial(plan.of_kind, kind))
+    last = Spacing(distance, distance)
+    darts += thrown(scatter, rules, dice, last, spec.tries, plan.wanted)
+    for number in range(ROUNDS if spec.settle else 0):
+        settled(scatter, rules, dice, distance, _part(spec.settle, ROUNDS, number))
+        darts += thrown(scatter, rules, dice, last, spec.tries, plan.wanted)
+    return darts
+
+
+def _part(total: int, parts: int, number: int) -> int:
+    """Return the share of a whole number that one of several parts has."""
+    return total * (number + 1) // parts - total * number // parts
+
+
+@frozen
+class _Plan:
+    """How many marks of each motif are wanted, and which come first.
+
+    ``area`` is that of the repeat and ``areas`` those of the marks of each motif, with their images under
+    the symmetry, at their usual size; ``bodies`` the same of what is drawn, at the least size. ``quota`` is
+    what is asked of each motif, perhaps infinite; ``likely`` about how many there will be; ``fill`` which
+    share of the area is to be covered.
+    """
+
+    area: float
+    areas: Array
+    bodies: Array
+    quota: Array
+    likely: Array
+    fill: float | None
+
+    @staticmethod
+    def of(spec: Toss, marks: Marks, rules: Rules, scatter: Scatter) -> _Plan:
+        images = len(scatter.torus.operations)
+        low, high = rules.size
+        usual = (low * low + low * high + high * high) / 3 * images
+        areas = shapely.area(scatter.kit.outlines) * usual
+        bodies = shapely.area(marks.bodies) * STEPS_PER_MM**2 * images
+        quota, fill = np.full(len(areas), np.inf), spec.fill
+        if spec.count is not None:
+            likely = quota = _apportioned(spec.count, rules.weights)
+        else:
+            gap = spec.distance * STEPS_PER_MM
+            room = float(rules.weights @ (np.sqrt(areas / images) + gap) ** 2) * images
+            likely = rules.weights * scatter.torus.area * USUAL_COVER / room
+        if fill is not None:
+            drawn = float(rules.weights @ bodies) * usual / images
+            likely = np.minimum(likely, rules.weights * fill * scatter.torus.area / drawn)
+        return _Plan(scatter.torus.area, areas, bodies, quota, likely, fill)
+
+    def wanted(self, there: Poses) -> Array:
+        """Return how many more of each motif are wanted."""
+        lacks = self.quota - np.bincount(there.motif, minlength=len(self.quota))
+        if self.fill is None:
+            return np.asarray(lacks)
+        more = self.fill * self.area - float((self.bodies[there.motif] * there.size**2).sum())
+        # Half a mark too many is as good as half a mark too few.
+        return np.minimum(lacks, np.floor(more / self.bodies + 0.5))
+
+    def of_kind(self, kind: int, there: Poses) -> Array:
+        """Return how many more are wanted of one motif before all come at once."""
+        lacks = np.minimum(
+            self.wanted(there), np.ceil(self.likely) - np.bincount(there.motif, minlength=len(self.quota))
+        )
+        return np.where(np.arange(len(lacks)) == kind, lacks, 0.0)
+
+    def early(self, distance: float) -> Iterator[tuple[Spacing, int]]:
+        """Yield the spacings, wide to narrow, in which motifs are thrown one after another, large ones first.
+
+        Thrown at the least distance at once, few marks would lie in clusters with holes between them, and
+        marks of one motif would gather.
+        """
+        if len(self.areas) == 1 and self.quota[0] == math.inf and self.fill is None:
+            return
+        total = float(self.likely.sum())
+        breadth = 2 * np.sqrt(self.areas / math.pi)
+        between = math.sqrt(self.area / total) - 0.8 * float(self.likely @ breadth) / total
+        for kind in np.argsort(-self.areas, kind="stable").tolist():
+            kin = math.sqrt(self.area / max(self.likely[kind], 1e-9)) - 0.8 * float(breadth[kind])
+            share = 1.0
+            while share * kin > 1.05 * distance and share > 0.1:
+                general = max(distance, share * between)
+                yield Spacing(general, max(general, share * kin)), kind
+                share *= NARROWING
+
+
+def _apportioned(count: int, weights: Array) -> Array:
+    """Return whole numbers that add up to a count, nearest to its shares by weight."""
+    shares = weights * count
+    whole = np.floor(shares)
+    whole[np.argsort(whole - shares, kind="stable")[: count - int(whole.sum())]] += 1
+    return np.asarray(whole)
+
+
+def _check_count(spec: Toss, scatter: Scatter, marks: Marks) -> None:
+    fit = len(scatter)
+    if not fit:
+        breadth = 2 * float(scatter.kit.reach.min()) / STEPS_PER_MM
+        if len(scatter.taken):
+            raise GeometryError(
+                f"no mark of {format_mm(round(breadth, 1))} mm fits between what lies there already at a "
+                f"distance of {format_mm(spec.distance)} mm: expected smaller marks, or another clear"
+            )
+        raise GeometryError(
+            f"a mark of {format_mm(round(breadth, 1))} mm keeps no distance of {format_mm(spec.distance)} mm "
+            f"from its own images, the nearest {format_mm(scatter.torus.shortest / STEPS_PER_MM)} mm away: "
+            "expected a smaller width or a larger tile"
+        )
+    if spec.count is not None and fit < spec.count:
+        raise GeometryError(
+            f"count = {spec.count}: only {fit} fit at a distance of {format_mm(spec.distance)} mm, "
+            f"expected at most {fit}, or smaller marks"
+        )
+
+
+def _copies(scatter: Scatter, motif: int) -> Affines:
+    """Return the maps of one motif, from its own frame in mm to its places."""
+    poses = scatter.poses.take(scatter.poses.motif == motif)
+    middle = scatter.kit.middles[motif] / STEPS_PER_MM
+    to_middle = Affine.translation((-middle.real, -middle.imag))
+    stretch = IDENTITY
+    if scatter.torus.stretch is not None:
+        (a, b), (c, d) = scatter.torus.stretch.tolist()
+        stretch = Affine(a, b, c, d)
+    places = np.column_stack([poses.place.real, poses.place.imag]) / STEPS_PER_MM
+    sized = Affines.scales(np.where(poses.flip, -poses.size, poses.size), poses.size)
+    return Affines.translations(places) @ stretch @ turns(poses.turn.tolist()) @ sized @ to_middle
+
+
+def _report(scatter: Scatter, spec: Toss, marks: Marks, darts: int) -> TossReport:
+    images = len(scatter.torus.operations)
+    poses = scatter.poses
+    bodies = as_steps(marks.bodies)
+    stretch = 1.0 if scatter.torus.stretch is None else abs(float(np.linalg.det(scatter.torus.stretch)))
+    covered = float((shapely.area(bodies)[poses.motif] * poses.size**2).sum()) * images * stretch
+    counts = np.bincount(poses.motif, minlength=len(bodies)) * images
+    square_metres = scatter.torus.area / (STEPS_PER_MM * 1000) ** 2
+    return TossReport(
+        marks.names,
+        tuple(int(count) for count in counts),
+        round(covered / scatter.torus.area, 6),
+        round(float(counts.sum()) / square_metres, 1),
+        round(_least_gap(scatter, bodies, spec.distance) / STEPS_PER_MM, 3),
+        darts,
+    )
+
+
+def _least_gap(scatter: Scatter, bodies: Geometries, distance: float) -> float:
+    """Measure the least gap between marks as they are drawn, and to what they keep clear of."""
+    middles = np.stack([scatter.kit.middles.real, scatter.kit.middles.imag], axis=1)
+    coords, owner = shapely.get_coordinates(bodies, return_index=True)
+    bodies = np.asarray(shapely.set_coordinates(bodies.copy(), coords - middles[owner]), dtype=object)
+    drawn = replace(scatter.kit, outlines=bodies).marks(scatter.poses, scatter.torus.stretch)
+    own = np.arange(len(drawn))
+    reach = 1.2 * distance * STEPS_PER_MM + 0.1 * scatter.largest
+    while True:
+        scatter.set(scatter.poses, drawn, reach)
+        _, gap, _ = scatter.gaps(drawn, reach, own)
+        if len(gap):
+            return float(gap.min())
+        reach *= 2

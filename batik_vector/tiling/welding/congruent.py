@@ -1,0 +1,349 @@
+"""Congruent areas: what is made once and set down many times.
+
+A pattern is few shapes and many copies. Copies that stand on the grid are translates of one another to the
+bit, and what happens to one of them among its neighbours (a cut, a weld, a test) happens to every other one
+that has the same neighbours at the same places. So areas are held here as *copies* of *shapes*; work is asked
+for by configuration, done once for each that is different, and its result set down wherever it belongs.
+
+Coordinates are whole grid steps.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from batik_vector.artwork import Geometries
+from batik_vector.geometry.outlines import Index, Offsets, Outlines, Steps, of_polygons, runs, to_polygons
+from batik_vector.geometry.ragged import Ragged
+from batik_vector.geometry.regions import oriented
+from batik_vector.tiling.torus.torus import polygons_of, to_step_grid, translate
+from batik_vector.units import STEPS_PER_MM
+from batik_vector.values import frozen
+
+_MIX = tuple(np.uint64(k) for k in (0x9E3779B97F4A7C15, 0xBF58476D1CE4E5B9, 0x94D049BB133111EB))
+"""Odd multipliers of a 64-bit mixer: Steele, Lea and Flood, "Fast splittable generators" (2014)."""
+
+Predicate = Callable[[Geometries, Geometries], NDArray[np.bool_]]
+
+
+def alike(rows: Steps, offsets: Offsets | None = None) -> tuple[Index, Index]:
+    """Return which runs of rows equal none before them, and for each run which of those it equals.
+
+    Args:
+        rows: shape (m, c), whole numbers.
+        offsets: where each of the n runs begins, and at last where the last one ends; none is empty. None
+            means that each row is a run.
+
+    Returns:
+        Shapes (k,), ascending, and (n,), numbers of the former. Fingerprints find the candidates, and each
+        is compared with its first in full.
+    """
+    if not len(rows):
+        return np.empty(0, np.intp), np.empty(0, np.intp)
+    prints = _fingerprints(rows, offsets)
+    order = np.argsort(prints, kind="stable")
+    begins = np.ones(len(order), bool)
+    begins[1:] = prints[order][1:] != prints[order][:-1]
+    first = np.empty(len(order), np.intp)
+    first[order] = order[begins][np.cumsum(begins) - 1]
+    again = np.flatnonzero(first != np.arange(len(first)))
+    if len(again):
+        other = again[~_equal(rows, offsets, again, first[again])]
+        first[other] = other
+    heads = np.flatnonzero(first == np.arange(len(first)))
+    return heads, np.searchsorted(heads, first)
+
+
+def _fingerprints(rows: Steps, offsets: Offsets | None) -> NDArray[np.uint64]:
+    if offsets is None:
+        mixed = np.zeros(len(rows), np.uint64)
+    else:
+        place = np.arange(len(rows)) - np.repeat(offsets[:-1], np.diff(offsets))
+        mixed = place.astype(np.uint64) * _MIX[0]
+    for column in rows.T:
+        mixed ^= column.astype(np.uint64)
+        mixed *= _MIX[1]
+        mixed ^= mixed >> np.uint64(29)
+    mixed *= _MIX[2]
+    mixed ^= mixed >> np.uint64(32)
+    return mixed if offsets is None else np.add.reduceat(mixed, offsets[:-1])
+
+
+def _equal(rows: Steps, offsets: Offsets | None, a: Index, b: Index) -> NDArray[np.bool_]:
+    """Return whether runs a[i] and b[i] are equal."""
+    if offsets is None:
+        return _same_points(rows[a], rows[b])
+    sizes = np.diff(offsets)
+    same = np.asarray(sizes[a] == sizes[b])
+    mine, ends = runs(offsets, a[same])
+    if len(mine):
+        equal = _same_points(rows[mine], rows[runs(offsets, b[same])[0]])
+        same[same] = np.logical_and.reduceat(equal, ends[:-1])
+    return same
+
+
+def _same_points(a: Steps, b: Steps) -> NDArray[np.bool_]:
+    """Return which rows are equal: column by column, since NumPy's loop along short rows is dear."""
+    same = a[:, 0] == b[:, 0]
+    for column in range(1, a.shape[1]):
+        same &= a[:, column] == b[:, column]
+    return np.asarray(same)
+
+
+class Copies:
+    """Copies of a stock's shapes: ``kind`` says of which, shape (n,), ``shift`` where to, shape (n, 2)."""
+
+    # Made by the hundred in every compilation, and hence no value of the costlier sort.
+    __slots__ = ("kind", "shift")
+
+    def __init__(self, kind: Index, shift: Steps) -> None:
+        self.kind, self.shift = kind, shift
+
+    def __len__(self) -> int:
+        return len(self.kind)
+
+    def taken(self, which: Index | NDArray[np.bool_]) -> Copies:
+        """Return some of the copies."""
+        return Copies(self.kind[which], self.shift[which])
+
+    def moved(self, shift: Steps) -> Copies:
+        """Return the copies elsewhere; ``shift`` has shape (2,) or (n, 2)."""
+        return Copies(self.kind, self.shift + shift)
+
+
+@frozen(eq=False)
+class Repeated:
+    """Areas as copies: copy i is ``shapes[which[i]]``, a valid polygon on the grid, moved by ``shift[i]``."""
+
+    shapes: Geometries
+    which: Index
+    shift: Steps
+
+    def __len__(self) -> int:
+        return len(self.which)
+
+    def taken(self, which: Index) -> Repeated:
+        """Return some of the copies."""
+        return Repeated(self.shapes, self.which[which], self.shift[which])
+
+    def reduced(self) -> Repeated:
+        """Return the same copies, of shapes that are all different."""
+        if not len(self.shapes):
+            return self
+        heads, number, corner = _different(of_polygons(self.shapes))
+        away = corner - corner[heads][number]
+        return Repeated(self.shapes[heads], number[self.which], self.shift + away[self.which])
+
+
+Areas: TypeAlias = Geometries | Repeated
+"""Areas in mm: polygons, or copies on the grid."""
+
+
+def polygons(areas: Areas) -> Geometries:
+    """Return areas as polygons in mm."""
+    if not isinstance(areas, Repeated):
+        return areas
+    stock = Stock()
+    return stock.in_mm(stock.copies([areas])[0])
+
+
+def vertex_count(areas: Areas) -> int:
+    """Return how many vertices areas have."""
+    if isinstance(areas, Repeated):
+        return int(shapely.get_num_coordinates(areas.shapes)[areas.which].sum())
+    return int(shapely.get_num_coordinates(areas).sum())
+
+
+def together(parts: Sequence[Copies]) -> Copies:
+    """Return several sets of copies as one."""
+    if not parts:
+        return Copies(np.empty(0, np.intp), np.empty((0, 2), np.int64))
+    return Copies(np.concatenate([p.kind for p in parts]), np.concatenate([p.shift for p in parts]))
+
+
+class SetDown(NamedTuple):
+    """Copies of the polygons of results: ``each`` says for which asker, ``piece`` which polygon of all."""
+
+    copies: Copies
+    each: Index
+    piece: Index
+
+
+class Stock:
+    """All shapes of a tile that are different, as far as is known; it only grows."""
+
+    def __init__(self) -> None:
+        self.shapes: Geometries = np.empty(0, dtype=object)
+        self._bounds: Steps = np.empty((0, 4), np.int64)
+
+    def add(self, areas: Geometries) -> Copies:
+        """Take up areas as they stand, each as a shape of its own."""
+        first = len(self.shapes)
+        self.shapes = np.concatenate([self.shapes, areas])
+        self._bounds = np.vstack([self._bounds, shapely.bounds(areas).astype(np.int64).reshape(-1, 4)])
+        return Copies(np.arange(first, len(self.shapes)), np.zeros((len(areas), 2), np.int64))
+
+    def settled(self, marks: Geometries) -> tuple[Copies, Index]:
+        """Bring areas in mm to the grid; return the copies and which mark each is of.
+
+        Rounding moves a vertex by half a step at most. The few shapes that this makes invalid are mended by
+        GEOS' precision reducer, and may thereby fall into several or vanish.
+        """
+        areas, owner = polygons_of(marks, np.arange(len(marks)))
+        if not len(areas):
+            return together([]), owner
+        steps, torn = _without_repeats(of_polygons(areas, STEPS_PER_MM))
+        heads, number, corner = _different(steps)
+        shapes = to_polygons(steps.taken(heads, -corner[heads]))
+        bad = torn[heads] | ~shapely.is_valid(shapes)
+        if bad.any():
+            mended = to_step_grid(areas[heads[bad]])
+            shapes[bad] = translate(mended, -corner[heads[bad]])
+        down = self.set_down(shapes, number, corner)
+        return down.copies, owner[down.each]
+
+    def taken_up(self, areas: Geometries) -> Copies:
+        """Take up valid polygons in grid steps, those that are alike as copies of one shape."""
+        if not len(areas):
+            return together([])
+        heads, number, corner = _different(of_polygons(areas))
+        return self.add(areas[heads]).taken(number).moved(corner - corner[heads][number])
+
+    def copies(self, parts: Sequence[Repeated]) -> list[Copies]:
+        """Take up areas that are copies already; an array of shapes that several share is taken up once."""
+        arrays = {id(part.shapes): part.shapes for part in parts}
+        shapes = self.add(np.concatenate([np.empty(0, dtype=object), *arrays.values()]))
+        first = dict(zip(arrays, np.cumsum([0, *map(len, arrays.values())]).tolist(), strict=False))
+        return [shapes.taken(first[id(p.shapes)] + p.which).moved(p.shift) for p in parts]
+
+    def set_down(self, results: Geometries, row: Index, shift: Steps) -> SetDown:
+        """Set down the polygons of result ``row[i]`` at ``shift[i]`` for every i."""
+        pieces, of = polygons_of(results, np.arange(len(results)))
+        order = np.argsort(of, kind="stable")
+        pieces, of = pieces[order], of[order]
+        ends = np.searchsorted(of, np.arange(len(results) + 1))
+        which, starts = runs(ends, row)
+        each = np.repeat(np.arange(len(row)), np.diff(starts))
+        return SetDown(self.add(pieces).taken(which).moved(shift[each]), each, which)
+
+    def mapped(self, copies: Copies, make: Callable[[Geometries], Geometries]) -> SetDown:
+        """Make something else of each shape, and set it down for each copy."""
+        shapes, row = self.used(copies)
+        return self.set_down(make(shapes), row, copies.shift)
+
+    def used(self, copies: Copies) -> tuple[Geometries, Index]:
+        """Return the shapes that copies are of, and for each copy which of those it is of."""
+        there = np.zeros(len(self.shapes), bool)
+        there[copies.kind] = True
+        return self.shapes[there], (np.cumsum(there) - 1)[copies.kind]
+
+    def bounds(self, copies: Copies) -> Steps:
+        """Return left, lower, right and upper edge of each copy, shape (n, 4)."""
+        return self._bounds[copies.kind] + np.tile(copies.shift, 2)
+
+    def geometries(self, copies: Copies) -> Geometries:
+        """Return the copies as polygons."""
+        return translate(self.shapes[copies.kind], copies.shift)
+
+    def in_mm(self, copies: Copies) -> Geometries:
+        """Return the copies as polygons in mm, outer rings anticlockwise and holes clockwise."""
+        if not len(copies):
+            return np.empty(0, dtype=object)
+        shapes, row = self.used(copies)
+        flat = Ragged.of(oriented(shapes))
+        assert flat.polygons is not None
+        which, ends = runs(flat.polygons, row)
+        members, starts = runs(flat.rings, which)
+        points = flat.points[members]
+        sizes = np.diff(starts[ends])
+        for axis in (0, 1):
+            points[:, axis] += np.repeat(copies.shift[:, axis], sizes)
+        points /= STEPS_PER_MM
+        made = shapely.from_ragged_array(shapely.GeometryType.POLYGON, points, (starts, ends))
+        return np.asarray(made, dtype=object)
+
+    def near(self, a: Copies, b: Copies) -> tuple[Index, Index]:
+        """Return the pairs, one of ``a`` and one of ``b``, whose bounds meet."""
+        if not len(a) or not len(b):
+            return np.empty(0, np.intp), np.empty(0, np.intp)
+        mine, other = shapely.STRtree(_diagonals(self.bounds(b))).query(_diagonals(self.bounds(a)))
+        return mine, other
+
+    def holds(self, predicate: Predicate, a: Copies, b: Copies) -> NDArray[np.bool_]:
+        """Return whether a predicate holds of a[i] and b[i]: asked once for each configuration."""
+        heads, number = alike(np.column_stack([a.kind, b.kind, b.shift - a.shift]))
+        first, second = self._each(a.taken(heads)), self._each(b.taken(heads))
+        shapely.prepare(first)
+        return np.asarray(predicate(first, second)[number])
+
+    def _each(self, copies: Copies) -> Geometries:
+        """Return copies as polygons, those that are the same copy as one and the same."""
+        heads, number = alike(np.column_stack([copies.kind, copies.shift]))
+        return self.geometries(copies.taken(heads))[number]
+
+
+def _diagonals(bounds: Steps) -> Geometries:
+    """Return lines that have given bounds: sooner made than boxes."""
+    return np.asarray(shapely.linestrings(bounds.reshape(-1, 2, 2).astype(np.float64)), dtype=object)
+
+
+def _different(steps: Outlines) -> tuple[Index, Index, Steps]:
+    """Return marks that equal none before them, which of those each mark is, and its lower left corner.
+
+    Marks are alike when one is the other moved, wherever their rings begin. Raw outlines are compared first,
+    so that only the different ones need their rings turned.
+    """
+    corner = steps.bounds()[:, :2]
+    steps = replace(steps, points=steps.points - np.repeat(corner, steps.sizes(), axis=0))
+    heads, number = alike(_rows(steps), _spans(steps))
+    turned = _begun_low(steps.taken(heads))
+    chosen, again = alike(_rows(turned), _spans(turned))
+    return heads[chosen], again[number], corner
+
+
+def _spans(steps: Outlines) -> Offsets:
+    ends: Offsets = steps.rings[steps.marks]
+    return ends
+
+
+def _rows(steps: Outlines) -> Steps:
+    """Return the points, with where a ring begins written into the lowest bit."""
+    rows = steps.points.copy()
+    rows[:, 0] *= 2
+    rows[steps.rings[:-1], 0] += 1
+    return rows
+
+
+def _begun_low(steps: Outlines) -> Outlines:
+    """Return the same rings, each begun at its leftmost, lowest point."""
+    sizes = np.diff(steps.rings)
+    key = (steps.points[:, 0] << 32) + steps.points[:, 1]
+    least = np.repeat(np.minimum.reduceat(key, steps.rings[:-1]), sizes)
+    ring = np.repeat(np.arange(len(sizes)), sizes)
+    low = np.flatnonzero(key == least)
+    _, first = np.unique(ring[low], return_index=True)
+    begin = low[first] - steps.rings[:-1]
+    place = np.arange(len(ring)) - steps.rings[ring]
+    order = steps.rings[ring] + (place + begin[ring]) % sizes[ring]
+    return Outlines(steps.points[order], steps.rings, steps.marks, steps.closed)
+
+
+def _without_repeats(steps: Outlines) -> tuple[Outlines, NDArray[np.bool_]]:
+    """Drop points that repeat the one before; return also which marks have a ring that vanished thereby."""
+    again = np.zeros(len(steps.points), bool)
+    again[1:] = _same_points(steps.points[1:], steps.points[:-1])
+    again[steps.rings[:-1]] = _same_points(steps.points[steps.rings[:-1]], steps.points[steps.rings[1:] - 1])
+    left = np.add.reduceat(~again, steps.rings[:-1])
+    thin = np.repeat(left < 3, np.diff(steps.rings))
+    torn = np.logical_or.reduceat(left < 3, steps.marks[:-1])
+    again &= ~thin
+    if not again.any():
+        return steps, torn
+    rings = steps.rings - np.concatenate([[0], np.cumsum(again)])[steps.rings]
+    return Outlines(steps.points[~again], rings, steps.marks, steps.closed), torn

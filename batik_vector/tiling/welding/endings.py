@@ -1,0 +1,51 @@
+"""Where lines end on the seam of a torus.
+
+A place on the seam shows on two edges of the page, a corner on all four; it is told by the one it has on
+the left edge, or else on the lower one. All places are in whole grid steps.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from batik_vector.artwork import Cell, Geometries
+from batik_vector.tiling.torus.torus import Steps
+
+Places = set[tuple[int, int]]
+
+
+def own_ends(lines: Geometries, cell: Cell) -> Places:
+    """Return the places on the rim of the page at which open lines begin or end."""
+    if not len(lines):
+        return set()
+    lines = lines[~shapely.is_closed(lines)]
+    ends = [shapely.get_coordinates(shapely.get_point(lines, at)) for at in (0, -1)]
+    return {(x, y) for x, y in _on_rim(np.vstack(ends), cell).tolist()}
+
+
+def lone_ends(lines: Geometries, cell: Cell) -> Places:
+    """Return the places on the rim from which a single stretch of all lines runs: none goes on there."""
+    coords, owner = shapely.get_coordinates(lines, return_index=True)
+    inside = owner[1:] == owner[:-1]
+    ends = _on_rim(np.vstack([coords[:-1][inside], coords[1:][inside]]), cell)
+    places, counts = np.unique(ends, axis=0, return_counts=True)
+    return {(x, y) for x, y in places[counts == 1].tolist()}
+
+
+def _on_rim(points: NDArray[np.float64], cell: Cell) -> Steps:
+    """Return the places of those points that lie on the rim of the page, shape (n, 2)."""
+    whole: Steps = np.rint(points).astype(np.int64)
+    x, y = whole.T
+    within = (x >= 0) & (x <= cell.columns) & (y >= 0) & (y <= cell.rows)
+    places: Steps = whole[within & ((x == 0) | (x == cell.columns) | (y == 0) | (y == cell.rows))]
+    (_, slip_y), (slip_x, _) = cell.lattice
+    sides = ((0, cell.columns, slip_y), (1, cell.rows, slip_x))
+    # The direction that drops comes first: what it moves along the other edge may reach the end of it.
+    for axis, side, slip in sides if slip_x == 0 else sides[::-1]:
+        far = places[:, axis] == side
+        places[far, axis] = 0
+        places[far, 1 - axis] -= slip
+        places[:, 1 - axis] %= sides[1 - axis][1]
+    return places

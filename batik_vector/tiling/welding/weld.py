@@ -1,0 +1,173 @@
+"""Welding: areas that meet become one, component by component.
+
+Uniting everything at once costs far more than uniting each connected group by itself, an area that meets no
+other needs nothing done, and groups that are copies of one another are united once. Coordinates are whole
+grid steps.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from batik_vector.artwork import Geometries
+from batik_vector.geometry.outlines import Index, Offsets, Steps, runs
+from batik_vector.geometry.sampling import Indices
+from batik_vector.tiling.torus import overlay
+from batik_vector.tiling.welding.congruent import Copies, Stock, alike, together
+
+ROUNDS = 6
+"""How often areas that joining brought together are joined again; two are seldom needed, and dense scribbles
+that never come apart on the grid are left as they are."""
+
+
+def welded(areas: Geometries) -> tuple[Geometries, Indices]:
+    """Join the areas that meet; return them with the index of the first area that each is made of.
+
+    Areas that touch in points only stay apart.
+    """
+    if not len(areas):
+        return areas, np.empty(0, np.intp)
+    stock = Stock()
+    joined, origin = weld(stock, stock.taken_up(areas))
+    return stock.geometries(joined), origin
+
+
+def united(areas: Geometries, pairs: Indices) -> tuple[Geometries, Indices]:
+    """Unite every group of areas that pairs connect; return them with the first area that each is made of."""
+    stock = Stock()
+    joined, first, _ = _united(stock, stock.taken_up(areas), pairs)
+    return stock.geometries(joined), first
+
+
+def weld(stock: Stock, copies: Copies, group: Index | None = None) -> tuple[Copies, Index]:
+    """Join the copies that meet; return them with the index of the first that each is made of, ascending.
+
+    Args:
+        stock: of which shapes they are.
+        copies: shape (n,).
+        group: shape (n,); only those of one group are joined. None joins all.
+    """
+    group = np.zeros(len(copies), np.intp) if group is None else group
+    origin = np.arange(len(copies))
+    pairs = _meeting(stock, copies, group, 0)
+    # Joining moves crossings onto the grid, and may push an edge over a neighbour that it only came
+    # near to; then these two are joined as well.
+    for _ in range(ROUNDS):
+        if not len(pairs):
+            break
+        copies, first, single = _united(stock, copies, pairs)
+        origin, group = origin[first], group[first]
+        pairs = _meeting(stock, copies, group, single)
+        pairs = pairs[stock.holds(_overlap, copies.taken(pairs[:, 0]), copies.taken(pairs[:, 1]))]
+    order = np.argsort(origin, kind="stable")
+    return copies.taken(order), origin[order]
+
+
+def _overlap(a: Geometries, b: Geometries) -> NDArray[np.bool_]:
+    return np.asarray(shapely.relate_pattern(a, b, "T********"))
+
+
+def _meeting(stock: Stock, copies: Copies, group: Index, known: int) -> Indices:
+    """Return the pairs with a point in common, shape (k, 2), but for those among the first ``known``."""
+    late = np.arange(known, len(copies))
+    a, b = stock.near(copies.taken(late), copies)
+    a = late[a]
+    asked = ((b < known) | (a < b)) & (group[a] == group[b])
+    a, b = a[asked], b[asked]
+    met = stock.holds(shapely.intersects, copies.taken(a), copies.taken(b))
+    return np.column_stack([a[met], b[met]])
+
+
+def _united(stock: Stock, copies: Copies, pairs: Indices) -> tuple[Copies, Index, int]:
+    """Unite every connected group; return also the first member of each, and how many had no neighbour."""
+    if not len(pairs):
+        return copies, np.arange(len(copies)), len(copies)
+    label = components(len(copies), pairs)
+    sizes = np.bincount(label, minlength=len(copies))[label]
+    alone, many = np.flatnonzero(sizes == 1), np.flatnonzero(sizes > 1)
+    # Members of groups that are copies of one another come in one order.
+    order = many[np.lexsort([*copies.shift[many].T[::-1], copies.kind[many], label[many]])]
+    starts = np.flatnonzero(np.r_[True, label[order][1:] != label[order][:-1]])
+    ends = np.append(starts, len(order))
+    corner = np.minimum.reduceat(copies.shift[order], starts, axis=0)
+    rows = np.column_stack(
+        [copies.kind[order], copies.shift[order] - np.repeat(corner, np.diff(ends), axis=0)]
+    )
+    heads, number = alike(rows, ends)
+    whole = unions(stock, rows, ends, heads)
+    down = stock.set_down(whole, number, corner)
+    first = np.minimum.reduceat(order, starts)[down.each]
+    # Areas that only touch fall apart again, each under its own name.
+    several = np.flatnonzero(np.bincount(down.each, minlength=len(starts))[down.each] > 1)
+    if len(several):
+        first[several] = _held(stock, copies, order, ends, down.copies, down.each, several)
+    return together([copies.taken(alone), down.copies]), np.concatenate([alone, first]), len(alone)
+
+
+def _held(
+    stock: Stock,
+    copies: Copies,
+    order: Index,
+    ends: Offsets,
+    pieces: Copies,
+    each: Index,
+    several: Index,
+) -> Index:
+    """Return for some pieces a member of their group that each holds."""
+    at = shapely.point_on_surface(stock.geometries(pieces.taken(several)))
+    owner = each[several]
+    groups = np.unique(owner, return_index=True)[0]
+    members, starts = runs(ends, groups)
+    of = np.repeat(groups, np.diff(starts))
+    tree = shapely.STRtree(stock.geometries(copies.taken(order[members])))
+    point, member = tree.query(at, predicate="intersects")
+    mine = of[member] == owner[point]
+    point, member = point[mine], member[mine]
+    found = order[ends[owner]]
+    by = np.lexsort([member, point])
+    who, first = np.unique(point[by], return_index=True)
+    found[who] = order[members[member[by][first]]]
+    return np.asarray(found)
+
+
+def unions(stock: Stock, rows: Steps, offsets: Offsets, which: Index) -> Geometries:
+    """Return the unions of some runs of rows (kind, x, y)."""
+    members, ends = runs(offsets, which)
+    areas = stock.geometries(Copies(rows[members, 0], rows[members, 1:]))
+    result = areas[ends[:-1]]
+    several = np.flatnonzero(np.diff(ends) > 1)
+    if len(several):
+        result[several] = overlay.united([areas[ends[row] : ends[row + 1]] for row in several])
+    return result
+
+
+def meeting(areas: Geometries) -> Indices:
+    """Return the pairs of areas that have a point in common, shape (n, 2)."""
+    if len(areas) < 2:
+        return np.empty((0, 2), np.intp)
+    a, b = shapely.STRtree(areas).query(areas, predicate="intersects")
+    return np.asarray(np.column_stack([a, b])[a < b])
+
+
+def components(count: int, pairs: Indices) -> Indices:
+    """Return for each of ``count`` items the least item that a chain of pairs connects it with.
+
+    Labels are hooked onto smaller ones and pointers doubled, so the rounds grow with the logarithm of the
+    longest chain (Shiloach and Vishkin, 1982).
+    """
+    label = np.arange(count)
+    while True:
+        low = np.minimum(label[pairs[:, 0]], label[pairs[:, 1]])
+        before = label.copy()
+        for side in (0, 1):
+            np.minimum.at(label, before[pairs[:, side]], low)
+            np.minimum.at(label, pairs[:, side], low)
+        while True:
+            jumped = label[label]
+            if np.array_equal(jumped, label):
+                break
+            label = jumped
+        if np.array_equal(label, before):
+            return label

@@ -1,0 +1,165 @@
+"""A tile as a torus: marks are wrapped round it, cut at its edges, and what lay on its seam is remembered.
+
+Coordinates are whole grid steps.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from batik_vector.artwork import Cell, Geometries
+from batik_vector.geometry.outlines import Index, runs
+from batik_vector.tiling.torus import overlay, seams
+from batik_vector.tiling.torus.torus import (
+    Lattice,
+    Steps,
+    Window,
+    clip_areas,
+    clip_lines,
+    lines_of,
+    to_step_grid,
+    translate,
+    translates,
+    wrap,
+)
+from batik_vector.tiling.welding.congruent import Copies, Stock, alike, together
+from batik_vector.tiling.welding.endings import Places, lone_ends, own_ends
+
+Borders = frozenset[tuple[str, int, int, int]]
+Lines = tuple[Geometries, NDArray[np.intp]]
+"""Polylines, and the number of the sheet that each lies in."""
+
+
+class Torus:
+    """A cell under its lattice, at one position of the seam.
+
+    Attributes:
+        borders: what :class:`~batik_vector.artwork.Artwork` tells of the seam, as far as it is known.
+    """
+
+    def __init__(self, stock: Stock, cell: Cell, lattice: Lattice, phase: Steps) -> None:
+        self.stock, self.cell, self.lattice, self.phase = stock, cell, lattice, phase
+        self.window = Window(0, 0, cell.columns, cell.rows)
+        self.borders: list[tuple[str, int, int, int]] = []
+        self._crossing: list[Geometries] = []
+        self._ends: dict[str, Places] = {}
+
+    def areas(self, marks: Copies) -> tuple[Copies, Index]:
+        """Wrap copies and cut them at the edges; return the pieces, in order, and whose they are."""
+        bounds = self.stock.bounds(marks) + np.tile(self.phase, 2)
+        which, shift = translates(bounds, self.lattice, self.window)
+        there = marks.taken(which).moved(self.phase + shift)
+        x0, y0, x1, y1 = self.stock.bounds(there).T
+        window = self.window
+        inside = (x0 > window.left) & (y0 > window.bottom) & (x1 < window.right) & (y1 < window.top)
+        cut = np.flatnonzero(~inside)
+        if not len(cut):
+            return there, which
+        pieces, each = self._clipped(there.taken(cut))
+        order = np.argsort(np.concatenate([np.flatnonzero(inside), cut[each]]), kind="stable")
+        copies = together([there.taken(inside), pieces])
+        return copies.taken(order), np.concatenate([which[inside], which[cut[each]]])[order]
+
+    def _clipped(self, marks: Copies) -> tuple[Copies, Index]:
+        """Cut at the edges what reaches them; several marks at one place are cut once."""
+        rows = np.column_stack([marks.kind, marks.shift])
+        heads, row = alike(rows)
+        shapes = self.stock.geometries(marks.taken(heads))
+        self._crossing.append(shapes)
+        pieces, of = clip_areas(shapes, np.arange(len(shapes)), self.window)
+        order = np.argsort(of, kind="stable")
+        which, starts = runs(np.searchsorted(of[order], np.arange(len(shapes) + 1)), row)
+        each = np.repeat(np.arange(len(marks)), np.diff(starts))
+        return self.stock.taken_up(pieces[order]).taken(which), each
+
+    def lines(self, marks: Geometries, sheet: int, ink: str) -> Lines:
+        """Wrap polylines in mm and cut them at the edges."""
+        pieces = to_step_grid(marks)
+        pieces = pieces[shapely.length(pieces) > 0] if len(pieces) else pieces
+        pieces = translate(pieces, np.repeat(self.phase[None, :], len(pieces), axis=0))
+        pieces, names = wrap(pieces, np.full(len(pieces), sheet, np.intp), self.lattice, self.window)
+        self._ends.setdefault(ink, set()).update(own_ends(pieces, self.cell))
+        return clip_lines(pieces, names, self.window)
+
+    def cut_lines(self, lines: Lines, cutters: Geometries, ink: str) -> Lines:
+        """Cut lines by cutters that do not overlap; one that is cut off up to the seam ends there."""
+        cut = _cut_lines(lines, cutters)
+        ended = lone_ends(cut[0], self.cell) - lone_ends(lines[0], self.cell)
+        if ended:
+            torn = [
+                row
+                for row in self._torn(seams.mismatch(cutters, self.cell))
+                if row[2] - row[1] > seams.MEND_STEPS
+            ]
+            self._ends[ink] |= {place for place in ended if not _lies_in(place, torn)}
+        return cut
+
+    def record_ends(self, ink: str, lines: Geometries) -> None:
+        """Note where lines end on the seam on purpose, as borders of no length."""
+        meant = self._ends.get(ink, set()) & lone_ends(lines, self.cell)
+        self.borders += [(ink, 0, y, y) if x == 0 else (ink, 1, x, x) for x, y in sorted(meant)]
+
+    def sealed(self, ink: str, areas: Copies) -> Copies | None:
+        """Return areas whose opposite edges agree, but for borders drawn along the seam on purpose.
+
+        What rounding parted by a few steps is mended; None where more is torn.
+        """
+        x0, y0, x1, y1 = self.stock.bounds(areas).T
+        window = self.window
+        at = (x0 <= window.left) | (y0 <= window.bottom) | (x1 >= window.right) | (y1 >= window.top)
+        rim = self.stock.geometries(areas.taken(at))
+        breaks = seams.mismatch(rim, self.cell)
+        if len(breaks):
+            mended = seams.mended(rim, self.cell)
+            if not shapely.is_valid(mended).all():
+                return None
+            breaks = seams.mismatch(mended, self.cell)
+            if self._torn(breaks):
+                return None
+            self.borders += [(ink, axis, low, high) for axis, low, high in breaks.tolist()]
+            new = self.stock.taken_up(mended)
+            areas = Copies(areas.kind.copy(), areas.shift.copy())
+            areas.kind[at], areas.shift[at] = new.kind, new.shift
+        return areas
+
+    def _torn(self, breaks: NDArray[np.int64]) -> list[tuple[int, int, int]]:
+        """Return what of breaks, rows of (axis, from, to), no mark's own border along the seam explains."""
+        if not len(breaks):
+            return []
+        found = []
+        allowed = self._allowed
+        for axis in (0, 1):
+            mine = seams.joined(breaks[breaks[:, 0] == axis, 1:])
+            legal = seams.joined(allowed[allowed[:, 0] == axis, 1:])
+            together = seams.joined(np.vstack([mine, legal]))
+            found += [(axis, low, high) for low, high in seams.symmetric_difference(together, legal).tolist()]
+        return found
+
+    @property
+    def _allowed(self) -> NDArray[np.int64]:
+        """The edges of marks that run along the seam themselves, as (axis, from, to)."""
+        return seams.on_seam(np.concatenate([np.empty(0, dtype=object), *self._crossing]), self.window)
+
+
+def _lies_in(place: tuple[int, int], stretches: Sequence[tuple[int, int, int]]) -> bool:
+    """Whether a place on the seam lies within one of its stretches, given as (axis, from, to)."""
+    return any(place[axis] == 0 and low < place[1 - axis] < high for axis, low, high in stretches)
+
+
+def _cut_lines(lines: Lines, cutters: Geometries) -> Lines:
+    """Cut lines by cutters that do not overlap."""
+    marks, names = lines
+    mark, cutter = shapely.STRtree(cutters).query(marks, predicate="intersects")
+    order = np.lexsort([cutter, mark])
+    rows, number = np.unique(mark[order], return_inverse=True)
+    if not len(rows):
+        return lines
+    away = np.asarray(shapely.multipolygons(cutters[cutter[order]], indices=number), dtype=object)
+    pieces, of = lines_of(overlay.less(marks[rows], away), names[rows])
+    whole = np.ones(len(marks), bool)
+    whole[rows] = False
+    return np.concatenate([marks[whole], pieces]), np.concatenate([names[whole], of])

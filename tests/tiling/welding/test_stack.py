@@ -1,0 +1,133 @@
+"""Sheets on the torus: what is cut where, what is left out whole, and what that may cost."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import shapely
+
+from batik_vector.artwork import Artwork, Cell, Ink, Layer, Overlap
+from batik_vector.compiling.compiler import compile_recipe, inspect
+from batik_vector.geometry.curves import Circle, Petal, Rose
+from batik_vector.recipe.model import InkSpec, Placement, Recipe
+from batik_vector.recipe.motif import Element, Motif, Rosette, Treatment
+from batik_vector.tiling.layouts import Ring
+from batik_vector.tiling.symmetry.repeats import Cut, TileSpec
+from batik_vector.tiling.welding.sheets import Sheet
+from batik_vector.tiling.welding.stack import assemble
+from tests.budgets import counted
+
+INK = Ink("wax", "#f4efe2", 2.0)
+
+
+def array(*shapes: shapely.Geometry) -> np.ndarray:
+    return np.array(shapes, dtype=object)
+
+
+def laid(*sheets: Sheet, size: tuple[int, int] = (100, 80), tolerance: float = 0.02) -> tuple[Layer, ...]:
+    cell = Cell(size[0] * 1000, size[1] * 1000)
+    inks = list({sheet.ink.name: sheet.ink for sheet in sheets if sheet.ink}.values())
+    return assemble(sheets, inks, cell, cell.lattice, tolerance)[0]
+
+
+@pytest.mark.parametrize("overlap", [Overlap.OVERLAY, Overlap.WELD])
+def test_a_mark_wider_than_its_unit_is_cut_in_every_unit_of_the_tile(overlap: Overlap) -> None:
+    """Half-drop as a rectangle holds two units, and the cutter bites into each of them."""
+
+    def tile(cut: Cut) -> Artwork:
+        motifs: dict[str, Motif] = {
+            "big": Rosette(elements=(Element(curve=Circle(40.0), contours=2),)),
+            "cut": Rosette(elements=(Element(curve=Circle(2.0), treatment=Treatment.CUT),)),
+        }
+        places = tuple(Placement(motif=name, scale=1.0, at=(3.0, 4.0), ink="wax") for name in motifs)
+        return compile_recipe(
+            Recipe(
+                title="t",
+                tolerance=0.1,
+                motif=motifs,
+                ink={"wax": InkSpec(colour="#f4efe2", overlap=overlap)},
+                place=places,
+                tile=TileSpec(size=(10.0, 12.0), repeat="half-drop", cut=cut),
+            )
+        )
+
+    whole, unit = tile(Cut.RECTANGLE), tile(Cut.UNIT)
+    assert inspect(whole)["violations"] == inspect(whole)["seam"] == []
+    areas = [sum(shapely.union_all(layer.areas).area for layer in each.layers) for each in (whole, unit)]
+    assert areas[0] == pytest.approx(2 * areas[1], rel=2e-3)
+
+
+def test_lines_of_several_inks_that_end_on_the_seam_are_all_told() -> None:
+    inks = [Ink("a", "#000000", 0.8), Ink("b", "#000000", 1.2)]
+    lines = [
+        Sheet(ink.name, ink, lines=array(shapely.LineString([(-20, y), (20, y)])))
+        for ink, y in zip(inks, (30, 60), strict=True)
+    ]
+    gaps = [
+        Sheet("g", None, array(shapely.box(left, y, 9, y + 20)), gap=0.0)
+        for left, y in ((0.4, 20), (0.6, 50))
+    ]
+    cell = Cell(100_000, 80_000)
+    for order in (lines, lines[::-1]):
+        _, borders = assemble([*order, *gaps], inks, cell, cell.lattice, 0.02)
+        assert sorted(borders) == [("a", 0, 30_000, 30_000), ("b", 0, 60_000, 60_000)]
+
+
+@pytest.mark.parametrize("away", np.linspace(0.6, 1.1, 11))
+def test_an_area_left_out_takes_its_line_with_it(away: float) -> None:
+    square = shapely.box(15, 15, 25, 25)
+    corner = 25 + away / np.sqrt(2)
+    dot = shapely.box(corner, corner, corner + 0.01, corner + 0.01)
+    area = Sheet("a", INK, array(square), whole=True, margin=1.0)
+    line = Sheet("a.line", INK, lines=array(square.exterior), whole=True)
+    above = Sheet("dot", None, array(dot), gap=0.0)
+    layers = laid(area, line, above, tolerance=0.4)
+    drawn = [(len(layer.areas), len(layer.lines)) for layer in layers]
+    assert drawn in ([], [(1, 1)])
+
+
+def test_marks_that_all_meet_are_not_copied_for_every_meeting() -> None:
+    """Every one of 40 different marks meets every other: 780 meetings."""
+    marks = array(*(shapely.Point(50, 40).buffer(10 + k / 3, quad_segs=16) for k in range(40)))
+    with counted() as work:
+        laid(Sheet("discs", INK, marks))
+    assert work.given("set_coordinates") < 12 * shapely.get_num_coordinates(marks).sum()
+
+
+def test_what_is_made_in_python_may_hold_lists() -> None:
+    motif = Rosette(elements=[Element(curve=Circle(1.0))])  # type: ignore[arg-type]
+    place = Placement(motif="dot", scale=3.0, at=[10.0, 10.0], ink="wax")  # type: ignore[arg-type]
+    recipe = Recipe(
+        title="t",
+        motif={"dot": motif},
+        ink={"wax": InkSpec(colour="#f4efe2")},
+        place=(place,),
+        tile=TileSpec(size=(20.0, 20.0)),
+    )
+    assert len(compile_recipe(recipe).layers[0].areas) == 1
+
+
+@pytest.mark.parametrize("contours", range(2, 10))
+@pytest.mark.parametrize("curve", [Petal(2, 1.0), Petal(3, 1.0), Circle(1.0), Rose(3, 1, 1.0)])
+def test_nested_contours_compile_whatever_they_share(curve: Circle, contours: int) -> None:
+    recipe = Recipe(
+        title="t",
+        motif={"m": Rosette(elements=(Element(curve=curve, contours=contours),))},
+        ink={"wax": InkSpec(colour="#f4efe2")},
+        place=(Placement(motif="m", scale=9.0, ink="wax", layout=Ring(count=3, radius=30.0)),),
+        tile=TileSpec(size=(90.0, 90.0)),
+    )
+    artwork = compile_recipe(recipe)
+    assert inspect(artwork)["violations"] == []
+    # Bands between k and k - 1 of n equal steps, every other one from the outermost.
+    share = sum((k**2 - (k - 1) ** 2) / contours**2 for k in range(contours, 0, -2))
+    one = replace_contours(recipe)
+    full = float(shapely.area(compile_recipe(one).layers[0].areas).sum())
+    assert float(shapely.area(artwork.layers[0].areas).sum()) == pytest.approx(share * full, rel=0.02)
+
+
+def replace_contours(recipe: Recipe) -> Recipe:
+    from dataclasses import replace
+
+    (element,) = recipe.motif["m"].parts()
+    return replace(recipe, motif={"m": Rosette(elements=(replace(element, contours=1),))})
