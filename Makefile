@@ -56,8 +56,9 @@ bench: $(READY) $(PEERS_READY) ## time everything beside its peers, and write th
 golden: $(READY) ## draw the samples' pictures and the gallery again
 	$(PY) tools/golden.py
 
-docs: $(READY) ## write docs/recipe.md from the program
+docs: $(READY) ## write docs/recipe.md and docs/architecture.md from the program
 	$(PY) tools/reference.py
+	$(PY) -m tools.house
 
 setup: $(READY) ## set up without doing anything else
 

@@ -4,13 +4,18 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from tools import reference
+from tools import house, reference
 
 ROOT = Path(__file__).resolve().parent.parent
 
 
 def test_the_page_on_recipes_is_up_to_date() -> None:
     assert reference.PAGE.read_text(encoding="utf-8") == reference.page(), "run make docs"
+
+
+def test_the_page_on_the_house_is_up_to_date() -> None:
+    assert house.PAGE.read_text(encoding="utf-8") == house.page(), "run make docs"
+    assert house.PICTURE.read_text(encoding="utf-8") == house.picture(), "run make docs"
 
 
 def test_pictures_and_pages_that_the_readme_names_exist() -> None:

@@ -12,7 +12,6 @@ from collections.abc import Iterator, Mapping
 from graphlib import CycleError, TopologicalSorter
 from importlib import import_module
 from pathlib import Path
-from typing import TypeAlias
 
 import pytest
 
@@ -21,77 +20,23 @@ from batik_vector.geometry.curves import CURVES, Curve
 from batik_vector.geometry.maps import VARIATIONS, Variation
 from batik_vector.recipe.motif import MOTIFS
 from batik_vector.tiling.layouts import LAYOUTS
-
-ROOT = Path(__file__).parents[1]
-PACKAGE = ROOT / "batik_vector"
-
-Floors: TypeAlias = tuple[frozenset[str], ...]
-
-
-def floors(*rooms: str) -> Floors:
-    return tuple(frozenset(each.split()) for each in rooms)
-
-
-FLOORS: Floors = floors(
-    "_version values patterns",
-    "errors units",
-    "fields",
-    "geometry",
-    "artwork",
-    "tiling export",
-    "recipe importing certificate",
-    "compiling",
-    "command",
-    "__init__ __main__",
+from tools.house import (
+    DOORBELL,
+    FLOORS,
+    PACKAGE,
+    ROOT,
+    WINGS,
+    imports,
+    is_module,
+    modules,
+    name_of,
+    room_of,
 )
-"""Rooms of the package, the ground floor first: each may look at those below it, and at nothing else. So
-rooms on one floor never meet: tiling and export, geometry and artwork."""
-
-WINGS: dict[str, Floors] = {
-    "tiling": floors("layouts", "torus", "welding tossing", "symmetry cloth borders"),
-    "geometry": floors(
-        "sampling outlines", "ragged curves regions stretches", "bezier maps", "coincidence", "ifs"
-    ),
-}
-"""The rooms within a room, likewise."""
-
-DOORBELL = ("batik_vector.artwork", "batik_vector.export.svg")
-"""The one import that runs upward, inside a function: a notebook asks an artwork for its picture."""
 
 MOST_FILES, MOST_ROOMS, FULL = 10, 12, 26
 """How many files and rooms the package's top may hold, and how many files a room."""
 
-MODULES = sorted(PACKAGE.rglob("*.py"))
-
-
-def name_of(path: Path) -> str:
-    parts = path.relative_to(ROOT).with_suffix("").parts
-    return ".".join(parts[:-1] if parts[-1] == "__init__" and len(parts) > 2 else parts)
-
-
-def room_of(module: str, wing: str = "") -> str:
-    """``batik_vector.export.svg`` → export; the front door of the package, or of a wing, is ``__init__``."""
-    parts = module.split(".")[2 if wing else 1 :]
-    return parts[0] if parts else "__init__"
-
-
-def imports(path: Path, everywhere: bool = True) -> Iterator[str]:
-    """Yield the modules of ours that a file imports; only at its top unless ``everywhere``."""
-    tree = ast.parse(path.read_text(encoding="utf-8"))
-    for node in ast.walk(tree) if everywhere else tree.body:
-        if isinstance(node, ast.Import):
-            yield from (alias.name for alias in node.names if alias.name.startswith("batik_vector"))
-        elif isinstance(node, ast.ImportFrom):
-            assert not node.level, f"{path.name} line {node.lineno}: imports are absolute here"
-            if node.module and node.module.startswith("batik_vector"):
-                for alias in node.names:
-                    whole = f"{node.module}.{alias.name}"
-                    yield whole if is_module(whole) else node.module
-
-
-def is_module(name: str) -> bool:
-    path = ROOT.joinpath(*name.split("."))
-    return path.with_suffix(".py").exists() or (path / "__init__.py").exists()
+MODULES = modules()
 
 
 def upward(module: str, imported: Iterator[str], wing: str = "") -> list[str]:
@@ -116,8 +61,8 @@ def test_every_room_has_a_floor() -> None:
     for wing, known in (("", FLOORS), *WINGS.items()):
         paths = in_wing(wing) if wing else MODULES
         rooms = {room_of(name_of(path), wing) for path in paths} - ({"__init__"} if wing else set())
-        assert rooms <= frozenset().union(*known), f"give these a floor in {Path(__file__).name}"
-        assert rooms >= frozenset().union(*known), "a floor without a room"
+        assert rooms <= set().union(*known), f"give these a floor in {Path(__file__).name}"
+        assert rooms >= set().union(*known), "a floor without a room"
     assert len(FLOORS) <= 10
 
 

@@ -15,13 +15,13 @@ from batik_vector.importing.matrix import parse_transform
 from batik_vector.importing.page import parse_px
 from batik_vector.patterns import NUMBER, numbers_in
 from batik_vector.recipe.reading.lines import Lines
-from tests.test_package import MODULES, PACKAGE
+from tools.house import PACKAGE, modules
 
 LATER = re.compile(r"(?<!\\)\)(?:[*+?]|\{[\d,]*\})\+|\(\?>")
 """A group that gives nothing back, which Python before 3.11.5 reads wrongly."""
 
 
-@pytest.mark.parametrize("path", MODULES, ids=lambda path: str(path.relative_to(PACKAGE)))
+@pytest.mark.parametrize("path", modules(), ids=lambda path: str(path.relative_to(PACKAGE)))
 def test_no_pattern_leans_on_what_the_first_pythons_do_wrong(path: Path) -> None:
     text = path.read_text(encoding="utf-8")
     if path.name == "patterns.py":
