@@ -11,9 +11,9 @@ check proves, and what it lets pass, is said at the head of its module.
 
 from __future__ import annotations
 
-from batik_vector.certificate.checks import certify
 from batik_vector.certificate.expectations import Asked
 from batik_vector.certificate.pointers import pointers
 from batik_vector.certificate.report import Certificate, Kind, Limits, Measures, SeamFault
+from batik_vector.certificate.verdict import certify
 
 __all__ = ["Asked", "Certificate", "Kind", "Limits", "Measures", "SeamFault", "certify", "pointers"]

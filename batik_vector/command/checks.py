@@ -27,7 +27,7 @@ from batik_vector.export.provenance import read_provenance
 from batik_vector.importing.svg import Reading, read_svg
 from batik_vector.recipe.loading import read_recipe
 from batik_vector.recipe.model import Recipe
-from batik_vector.recipe.reading.files import COMPILED
+from batik_vector.recipe.reading.sources import COMPILED
 from batik_vector.tiling.symmetry.groups import group
 from batik_vector.tiling.symmetry.machine_fit import per_cent
 from batik_vector.tiling.symmetry.repeats import parse_repeat, repeat_of

@@ -19,7 +19,7 @@ from batik_vector.export import FORMATS, write_all_whole, write_page
 from batik_vector.recipe.loading import load_recipe, located
 from batik_vector.recipe.model import OutputSpec, Recipe
 from batik_vector.recipe.outputs import OUTPUTS, Piece, PngOutput
-from batik_vector.recipe.reading.files import COMPILED
+from batik_vector.recipe.reading.sources import COMPILED
 from batik_vector.tiling.symmetry.machine_fit import pixel_advice
 from batik_vector.units import STEPS_PER_MM
 from batik_vector.values import frozen

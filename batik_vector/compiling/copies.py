@@ -1,4 +1,4 @@
-"""From figures and the maps of their copies to sheets of marks, in millimetres on cloth.
+"""What the copies of one placement draw and cut: a sheet of marks for each element of its motif, in mm.
 
 Whatever copies have in common, bodies of lines too, is made once and then set down.
 """

@@ -1,4 +1,4 @@
-"""Placements that fill the repeat: what a motif's body is to a toss, and where its copies come to lie."""
+"""Placements that fill the repeat, tossed or in stripes: what is free, and where their copies come to lie."""
 
 from __future__ import annotations
 

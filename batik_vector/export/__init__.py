@@ -1,4 +1,4 @@
-"""Writers: an artwork becomes a file.
+"""Writers: an artwork becomes a file. A new format is a file beside this one, and a line in ``FORMATS``.
 
     write_artwork(artwork, "kawung.dxf")
     write_artwork(artwork, "kawung.svg", options=SvgOptions(profile=Profile.COMPACT))

@@ -1,4 +1,4 @@
-"""The one walk over a page: every format is a surface that it drives.
+"""The one walk over a page, in the order in which its marks are written: every format is a surface it drives.
 
 The walker checks what every writer relies on and hands each ink's marks over in bulk, piece by piece as the
 page gives them. A surface spells them out and knows nothing of shapely.

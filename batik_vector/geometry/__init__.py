@@ -1,1 +1,1 @@
-"""Geometry: curves, maps, sampling and regions. It knows neither ink nor page."""
+"""Geometry: curves, maps, sampling and regions, knowing neither ink nor page. Fills will have a room here."""

@@ -1,4 +1,4 @@
-"""Sampling by error: how a curve, or the image of an edge, becomes a polyline within a tolerance.
+"""Sampling by error: how many vertices a curve, or the image of an edge, needs to keep a tolerance.
 
 Two steps do all of it, each in bulk over any number of pieces at once:
 

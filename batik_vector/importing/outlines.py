@@ -1,4 +1,4 @@
-"""Outlines as SVG draws them: lines and cubic Béziers, whatever they were written as.
+"""SVG path data, parsed to outlines of lines and cubic Béziers.
 
 Quadratic Béziers become cubic exactly. Arcs become cubics of at most 22.5°, whose error is 7e-8 of the
 radius (a twentieth of a µm at a metre).

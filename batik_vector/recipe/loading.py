@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING, Any
 from batik_vector.errors import Fault, RecipeError
 from batik_vector.recipe.model import Recipe
 from batik_vector.recipe.reading.builder import UnsureError, built
-from batik_vector.recipe.reading.files import MAX_TEXT, read_text
 from batik_vector.recipe.reading.limits import MAX_DEPTH, deep_key, odd_numbers
+from batik_vector.recipe.reading.sources import MAX_TEXT, read_text
 
 if TYPE_CHECKING:
     from batik_vector.recipe.reading.overrides import Override

@@ -11,7 +11,7 @@ import inspect
 from typing import Any
 
 from batik_vector.recipe.model import Recipe
-from batik_vector.recipe.reading.hints import Hint, Member, example, members
+from batik_vector.recipe.reading.field_types import Hint, Member, example, members
 from batik_vector.units import MM_PER_UNIT
 
 Schema = dict[str, Any]

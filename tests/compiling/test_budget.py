@@ -27,7 +27,7 @@ from batik_vector.recipe import motif
 from batik_vector.recipe.loading import load_recipe, read_recipe
 from batik_vector.recipe.model import Placement, Recipe
 from batik_vector.recipe.motif import Flower, Motif
-from batik_vector.recipe.reading import hints
+from batik_vector.recipe.reading import field_types
 from batik_vector.tiling.layouts import Julian, Lattice, Layout, Ring
 from batik_vector.tiling.symmetry.repeats import TileSpec
 from tests.budgets import (
@@ -114,7 +114,7 @@ def test_a_budget_fails_where_more_is_spent_and_tells_where_it_is_idle() -> None
 
 
 def test_annotations_are_resolved_once_and_only_those_a_recipe_needs() -> None:
-    for cache in (hints.members, fields.hint_of, fields._span):
+    for cache in (field_types.members, fields.hint_of, fields._span):
         cache.cache_clear()
     with counted([(typing, "get_type_hints")]) as first:
         sample()

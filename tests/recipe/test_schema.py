@@ -17,7 +17,7 @@ from batik_vector.geometry.maps import VARIATIONS
 from batik_vector.recipe.model import Recipe
 from batik_vector.recipe.motif import MOTIFS
 from batik_vector.recipe.outputs import OUTPUTS
-from batik_vector.recipe.reading.hints import members
+from batik_vector.recipe.reading.field_types import members
 from batik_vector.recipe.schema import schema
 from batik_vector.tiling.layouts import LAYOUTS
 from tests.recipe.test_bad_input import CASES, recipe

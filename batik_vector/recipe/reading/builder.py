@@ -14,7 +14,7 @@ import math
 from typing import Any, TypeVar
 
 from batik_vector.errors import BatikError
-from batik_vector.recipe.reading.hints import Hint, chosen, members
+from batik_vector.recipe.reading.field_types import Hint, chosen, members
 from batik_vector.units import parse_length
 
 Built = TypeVar("Built")

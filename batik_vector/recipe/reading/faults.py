@@ -1,4 +1,4 @@
-"""From what pydantic finds wrong to lines that people can act on."""
+"""Messages: what is wrong with a recipe in lines that people can act on, with the nearest right name."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Any
 
 from batik_vector.errors import Fault, RecipeError, unknown_name
 from batik_vector.fields import TAG
-from batik_vector.recipe.reading.hints import Hint, chosen, expected, members, span
+from batik_vector.recipe.reading.field_types import Hint, chosen, expected, members, span
 from batik_vector.recipe.reading.lines import parse_path
 from batik_vector.recipe.references import Path, dotted
 from batik_vector.values import frozen

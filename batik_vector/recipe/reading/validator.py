@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 from batik_vector.errors import Fault, RecipeError
 from batik_vector.recipe.model import Recipe
 from batik_vector.recipe.reading.faults import Found, field_first, found_in, keyed, odd_number, unknown_keys
-from batik_vector.recipe.reading.hints import Hint
+from batik_vector.recipe.reading.field_types import Hint
 from batik_vector.recipe.reading.lines import Lines
 from batik_vector.recipe.reading.overrides import Override, parse_override
 from batik_vector.recipe.references import Path, dotted, unknown_references

@@ -1,4 +1,4 @@
-"""Marks for those who print and cut: outside the drawing, on a layer that plotters skip.
+"""Selvedge lines, trim marks and calibration bars: outside the drawing, on a layer that plotters skip.
 
 Distances are in mm on cloth, the printed area's lower left corner at (0, 0).
 """

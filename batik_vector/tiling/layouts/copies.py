@@ -1,4 +1,4 @@
-"""Layouts of single copies: one, in a ring, in a mirror, in a rosette, in rows, or set by hand."""
+"""Layouts that say where copies lie: one, in a ring, in a mirror, in a rosette, in rows, or set by hand."""
 
 from __future__ import annotations
 

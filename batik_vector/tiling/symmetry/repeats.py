@@ -1,4 +1,4 @@
-"""From the repeat a recipe asks for to a cell on the grid."""
+"""The repeat: from the half-drop, brick, drop, mirror or group that is asked for to a cell on the grid."""
 
 from __future__ import annotations
 

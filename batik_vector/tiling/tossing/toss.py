@@ -1,4 +1,4 @@
-"""Tosses: marks scattered over the repeat by chance, evenly, and clear of one another across every seam."""
+"""A toss from beginning to end: how many marks, where they are thrown, how they settle, and its report."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Cutting: what lies higher on the torus takes its shape out of what lies beneath.
+"""Cutting: what lies higher, and the gap round it, is taken out of what lies beneath.
 
 Each mark is cut by the cutters that touch it, once for all marks that lie alike among the same cutters.
 Coordinates are whole grid steps.

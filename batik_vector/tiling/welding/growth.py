@@ -1,4 +1,4 @@
-"""Growth: shapes made larger all round, round at corners and ends."""
+"""Growth: shapes made larger all round, as for a gap or a line's breadth; round at corners and ends."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Sheets of marks: what one element of one placement draws, over all its copies, and what it cuts.
+"""A sheet: what one element of one placement draws over all its copies, and what it cuts. Sheets make a pile.
 
 Here they come from millimetres to the grid, all at once, so that what is congruent is found.
 """

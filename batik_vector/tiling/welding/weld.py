@@ -1,4 +1,4 @@
-"""Welding: areas that meet become one, component by component.
+"""Welding: areas of one ink that meet or overlap become one, component by component.
 
 Uniting everything at once costs far more than uniting each connected group by itself, an area that meets no
 other needs nothing done, and groups that are copies of one another are united once. Coordinates are whole

@@ -1,4 +1,4 @@
-"""A tile as a torus: marks are wrapped round it, cut at its edges, and what lay on its seam is remembered.
+"""The last cut: finished layers are wrapped round the tile, and what lay on its seam is remembered.
 
 Coordinates are whole grid steps.
 """

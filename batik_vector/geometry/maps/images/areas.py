@@ -1,4 +1,4 @@
-"""Images of regions under a map."""
+"""Where to ask for the images of regions: exact for affine maps, folded or plain for the others."""
 
 from __future__ import annotations
 

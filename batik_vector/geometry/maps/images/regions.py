@@ -1,4 +1,4 @@
-"""Images of regions: what becomes of shells and holes, about branch points and poles and across folds."""
+"""Regions under a map that does not fold: shells and holes, about branch points and poles."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""All checks of a tile, one after another, and what they found written down."""
+"""Whether a tile passes: all checks, one after another, and the faults they found written down."""
 
 from __future__ import annotations
 
