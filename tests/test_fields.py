@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import importlib
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated, Any
@@ -156,3 +157,21 @@ def test_curves_of_ones_own_are_made_with_and_without_deferred_annotations(
     with pytest.raises(GeometryError, match=r"height = 0, expected 0\.1 to 10"):
         own.Broad(height=0)
     assert hint_of(own.Broad, "later").__origin__.__args__ == (own.Late, ...)
+
+
+def test_bounds_are_known_where_a_class_keeps_no_annotations() -> None:
+    """From Python 3.14 on they are no longer in its dictionary; here they are taken out of it."""
+
+    @frozen
+    class Bare:
+        """Has nothing but what the dataclass has read."""
+
+        size: Annotated[float, Between(0, 10)] = 1.0
+
+        def __post_init__(self) -> None:
+            check(self)
+
+    if sys.version_info < (3, 14):
+        del Bare.__annotations__
+    with pytest.raises(GeometryError, match="size = 11, expected 0 to 10"):
+        Bare(size=11)
