@@ -56,9 +56,6 @@ WINGS: dict[str, Floors] = {
 DOORBELL = ("batik_vector.artwork", "batik_vector.export.svg")
 """The one import that runs upward, inside a function: a notebook asks an artwork for its picture."""
 
-GROUND = frozenset(room for floor in FLOORS[:3] for room in floor)
-"""What everybody leans on: left out of the drawing."""
-
 
 def modules() -> list[Path]:
     """Return the files of the package."""
