@@ -80,4 +80,5 @@ def _strange(one: Image.Image, other: Image.Image) -> Mask:
 def _alone(one: Mask, other: Mask, reach: int) -> float:
     near = np.asarray(Image.fromarray(other).convert("L").filter(ImageFilter.MaxFilter(2 * reach + 1))) > 0
     inside = slice(EDGE, -EDGE)
-    return float(np.count_nonzero((one & ~near)[inside, inside]) / max(np.count_nonzero(one), 1))
+    left = int(np.count_nonzero((one & ~near)[inside, inside]))
+    return left / max(int(np.count_nonzero(one)), 1)
