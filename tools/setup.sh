@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
 # Makes the machine ready, step by step, doing only what is not yet done.
 #
-#   tools/setup.sh python     an environment with this package and its development tools, and cairo
-#   tools/setup.sh lowest     the same with the oldest versions that pyproject.toml allows
+#   tools/setup.sh python     an environment with this package, and cairo
+#   tools/setup.sh tools      into the same, what tests and checks it
 #   tools/setup.sh peers      .venv-bench with what the benchmarks measure us against
 #   tools/setup.sh clients    the real programs that tests/clients opens files in
 #   tools/setup.sh bare       what makes a bare system
 #
-# PYTHON is the interpreter, VENV the folder of the environment. What the system lacks is installed by apt where
+# PYTHON is the interpreter, VENV the folder of the environment; with LOWEST=1 it gets the oldest versions that
+# pyproject.toml allows. What the system lacks is installed by apt where
 # we are root or sudo asks no password; elsewhere the one command that does it is printed. Whatever stops it, one
 # line says what and the next call goes on.
 set -euo pipefail
@@ -98,25 +99,30 @@ python_known() {
         fail "$("$python" --version) is too old: 3.11 or later is needed (make PYTHON=python3.12 …)"
 }
 
-package_ready() { # pip's further arguments…
-    step "installing the package and its tools into $venv (pip)" pip_install "$venv" "$@" --editable '.[dev]'
+installed() { # in words, what pip calls it
+    local oldest=()
+    if [ -n "${LOWEST:-}" ]; then
+        "$venv/bin/python" tools/lowest.py >"$venv/lowest.txt"
+        oldest=(--constraint "$venv/lowest.txt")
+    fi
+    step "installing $1 into $venv (pip)" pip_install "$venv" "${oldest[@]}" --editable "$2"
+}
+
+python_ready() {
+    python_known
+    environment "$venv"
+    installed "the package" .
     # Cairo is the one library that no wheel brings along.
     "$venv/bin/python" -c 'import cairosvg' 2>/dev/null || system_needs libcairo2
     "$venv/bin/python" -c 'import cairosvg'
     rm -f "$venv/.unfinished"
 }
 
-python_ready() {
+tools_ready() {
     python_known
     environment "$venv"
-    package_ready
-}
-
-lowest_ready() {
-    python_known
-    environment "$venv"
-    "$venv/bin/python" tools/lowest.py >"$venv/lowest.txt"
-    package_ready --constraint "$venv/lowest.txt"
+    installed "what tests it" '.[dev]'
+    rm -f "$venv/.unfinished"
 }
 
 peer() { # where to, requirement: install it without what else it asks for, or note why not
@@ -167,9 +173,9 @@ clients_ready() {
 
 case ${1:-} in
 python) python_ready ;;
-lowest) lowest_ready ;;
+tools) tools_ready ;;
 peers) peers_ready ;;
 clients) clients_ready ;;
 bare) programs_ready debootstrap:debootstrap git:git ;;
-*) fail "usage: tools/setup.sh python|lowest|peers|clients|bare" ;;
+*) fail "usage: tools/setup.sh python|tools|peers|clients|bare" ;;
 esac
