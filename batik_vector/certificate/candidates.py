@@ -23,6 +23,12 @@ ROWS = 2
 BLUR = 0.8
 """Standard deviation, in grid points, of the blur that makes the coverage band-limited."""
 
+MOST_TIMES = 16
+"""How many times ``SIDE`` grid points lie along the longer side of a long lattice at the most."""
+
+LONG = 4.0
+"""How many times its shorter vector the longer one of a long lattice is: no symmetry swaps them."""
+
 FAINT = 1e-9
 """Spectral energy, against a coverage of one half, below which a layer is as good as plain."""
 
@@ -38,11 +44,10 @@ class Spectra:
     def __init__(self, outline: Outline, basis: Matrix) -> None:
         self.basis = basis
         inverse = np.linalg.inv(basis)
-        wave = np.fft.fftfreq(SIDE, 1 / SIDE)
-        # The blur is round on cloth, so that it commutes with every isometry.
-        k = np.stack(np.meshgrid(wave, wave, indexing="ij"), axis=-1) @ inverse
-        pixel = float(np.hypot(*basis).max()) / SIDE
-        blur = np.exp(-2 * (np.pi * BLUR * pixel) ** 2 * (k * k).sum(axis=-1))
+        self.sides = sides = sides_of(basis)
+        self.waves = [np.rint(np.fft.fftfreq(side, 1 / side)).astype(np.intp) for side in sides]
+        k = np.stack(np.meshgrid(*self.waves, indexing="ij"), axis=-1) @ inverse @ _blurs(basis, sides)
+        blur = np.exp(-2 * (np.pi * BLUR) ** 2 * (k * k).sum(axis=-1))
         blur[0, 0] = 0
         self.layers = []
         for number in range(2 * len(outline.inks)):
@@ -51,22 +56,22 @@ class Spectra:
             if not mine.any():
                 continue
             begin, end = edges.begin[mine] @ inverse.T, edges.end[mine] @ inverse.T
-            spectrum = np.fft.fft2(_strokes(begin, end) if number % 2 else _coverage(begin, end)) * blur
+            spectrum = np.fft.fft2((_strokes if number % 2 else _coverage)(begin, end, sides)) * blur
             energy = float((np.abs(spectrum) ** 2).sum())
-            if energy > FAINT * SIDE**4:
+            if energy > FAINT * float(sides[0] * sides[1]) ** 2:
                 self.layers.append(spectrum / np.sqrt(energy))
 
     def agreement(self, turn: Whole) -> NDArray[np.float64]:
         """Return for every grid translation how well the pattern meets its turned self: 1 is wholly."""
         (p, q), (r, s) = turn
-        index = np.arange(SIDE)
+        across, up = self.waves[0][:, None], self.waves[1][None, :]
         # f(A⁻¹y) has the spectrum F(Aᵀk).
-        rows = (p * index[:, None] + r * index[None, :]) % SIDE
-        columns = (q * index[:, None] + s * index[None, :]) % SIDE
-        total = np.zeros((SIDE, SIDE), complex)
+        rows = (p * across + r * up) % self.sides[0]
+        columns = (q * across + s * up) % self.sides[1]
+        total = np.zeros(self.sides, complex)
         for layer in self.layers:
             total += np.conj(layer[rows, columns]) * layer
-        return np.asarray(np.fft.ifft2(total).real * SIDE**2 / max(len(self.layers), 1))
+        return np.asarray(np.fft.ifft2(total).real * total.size / max(len(self.layers), 1))
 
     def peaks(self, turn: Whole, least: float, along: int | None = None) -> Points:
         """Return the translations (lattice coordinates) at which the agreement peaks, the best first.
@@ -91,8 +96,40 @@ class Spectra:
         at = np.argwhere(top)
         place, height = _sharpened(field, at, along)
         order = np.lexsort([at[:, 1], at[:, 0], -np.round(height, 6)])
-        # Grid point i stands at (i + ½) / SIDE, and the half is turned too.
-        return np.asarray((place[order] + 0.5 - np.array(turn).sum(axis=1) / 2) / SIDE)
+        # Grid point i stands at (i + ½) / side, and the half is turned too.
+        return np.asarray((place[order] + 0.5 - _halves(turn, self.sides)) / self.sides)
+
+
+def sides_of(basis: Matrix) -> tuple[int, int]:
+    """Return how many grid points lie along each vector of a lattice: more along the longer of a long one."""
+    length = np.hypot(*basis)
+    times = int(min(max(length.max() / length.min() / LONG, 1), MOST_TIMES))
+    return (SIDE * times, SIDE) if length[0] > length[1] else (SIDE, SIDE * times)
+
+
+def pixel_of(basis: Matrix) -> float:
+    """Return how far (mm) grid points stand apart at the most."""
+    return float((np.hypot(*basis) / sides_of(basis)).max())
+
+
+def _halves(turn: Whole, sides: tuple[int, int]) -> Points:
+    """Return where a linear part carries half a step of the grid in both directions, in steps."""
+    half = 0.5 / np.array(sides, float)
+    return np.asarray(np.array(turn, float) @ half * sides)
+
+
+def _blurs(basis: Matrix, sides: tuple[int, int]) -> Matrix:
+    """Return what a grid point of the blur is on cloth, as two columns in mm.
+
+    It is round, so that it commutes with every isometry. On a long lattice it is long as well, or it would
+    wipe out what stands across: only mirrors along and across, and half turns, can hold there, and commute.
+    """
+    length = np.hypot(*basis)
+    if length.max() < LONG * length.min():
+        return np.asarray(np.eye(2) * length.max() / SIDE)
+    short = basis[:, int(np.argmin(length))] / length.min()
+    height = abs(float(np.linalg.det(basis))) / length.min() / max(sides) * SIDE
+    return np.column_stack([short * length.min(), np.array([-short[1], short[0]]) * height]) / SIDE
 
 
 def _sharpened(
@@ -105,8 +142,8 @@ def _sharpened(
         if axis == along:
             continue
         step = np.eye(2, dtype=np.intp)[axis]
-        before = field[tuple(((at - step) % SIDE).T)]
-        after = field[tuple(((at + step) % SIDE).T)]
+        before = field[tuple(((at - step) % field.shape).T)]
+        after = field[tuple(((at + step) % field.shape).T)]
         bend = np.minimum(before - 2 * here + after, -1e-30)
         slope = (after - before) / 2
         place[:, axis] += np.clip(-slope / bend, -0.5, 0.5)
@@ -114,14 +151,14 @@ def _sharpened(
     return place, height
 
 
-def _coverage(begin: Points, end: Points) -> NDArray[np.float64]:
+def _coverage(begin: Points, end: Points, sides: tuple[int, int]) -> NDArray[np.float64]:
     """Return what closed rings (lattice coordinates) cover round each grid point, wrapped and summed.
 
     Signed crossings of scan lines, added up along them. What a ring reaches beyond the torus is wrapped:
     the winding that it carries all round a line cancels, since it is closed.
     """
-    scan = SIDE * ROWS
-    a, b = begin * (SIDE, scan), end * (SIDE, scan)
+    side, scan = sides[0], sides[1] * ROWS
+    a, b = begin * (side, scan), end * (side, scan)
     sign = np.sign(b[:, 1] - a[:, 1])
     low, high = np.minimum(a[:, 1], b[:, 1]), np.maximum(a[:, 1], b[:, 1])
     first = np.ceil(low - 0.5).astype(np.intp)
@@ -130,34 +167,37 @@ def _coverage(begin: Points, end: Points) -> NDArray[np.float64]:
     rise = (line + 0.5 - a[edge, 1]) / (b[edge, 1] - a[edge, 1])
     x = a[edge, 0] + rise * (b[edge, 0] - a[edge, 0])
     column = np.floor(x)
-    part, turns = x - column, np.floor(column / SIDE)
+    part, turns = x - column, np.floor(column / side)
     weight = sign[edge]
     row = (line % scan) // ROWS
-    cell = (column - turns * SIDE).astype(np.intp)
-    shape = (SIDE, SIDE + 1)
+    cell = (column - turns * side).astype(np.intp)
+    shape = (sides[1], side + 1)
     steps = np.bincount(row * shape[1] + cell, weight * (1 - part), shape[0] * shape[1])
     steps += np.bincount(row * shape[1] + cell + 1, weight * part, shape[0] * shape[1])
-    whole = np.bincount(row, weight * turns, SIDE)
+    whole = np.bincount(row, weight * turns, sides[1])
     # A step past the last column is one at the first of the next turn, and there the two cancel.
-    wound = np.cumsum(steps.reshape(shape), axis=1)[:, :SIDE] - whole[:, None]
+    wound = np.cumsum(steps.reshape(shape), axis=1)[:, :side] - whole[:, None]
     # Anticlockwise rings go down on the left; the lines are v, the places along them u.
     return np.asarray(-wound.T / ROWS)
 
 
-def _strokes(begin: Points, end: Points) -> NDArray[np.float64]:
+def _strokes(begin: Points, end: Points, sides: tuple[int, int]) -> NDArray[np.float64]:
     """Return the length of lines (lattice coordinates) near each grid point, as a tent spreads it."""
-    step = (end - begin) * SIDE
+    step = (end - begin) * sides
     length = np.hypot(*step.T)
     edge, number = spread(np.maximum(1, np.ceil(2 * length)).astype(np.intp))
     count = np.maximum(1, np.ceil(2 * length))[edge]
-    place = begin[edge] * SIDE + ((number + 0.5) / count)[:, None] * step[edge] - 0.5
+    place = begin[edge] * sides + ((number + 0.5) / count)[:, None] * step[edge] - 0.5
     weight = length[edge] / count
     base = np.floor(place)
     part = place - base
-    total = np.zeros(SIDE * SIDE)
+    total = np.zeros(sides[0] * sides[1])
     for du in (0, 1):
         for dv in (0, 1):
-            u, v = ((base[:, 0] + du) % SIDE).astype(np.intp), ((base[:, 1] + dv) % SIDE).astype(np.intp)
+            u, v = (
+                ((base[:, 0] + du) % sides[0]).astype(np.intp),
+                ((base[:, 1] + dv) % sides[1]).astype(np.intp),
+            )
             share = np.abs(1 - du - part[:, 0]) * np.abs(1 - dv - part[:, 1])
-            total += np.bincount(u * SIDE + v, weight * share, SIDE * SIDE)
-    return total.reshape(SIDE, SIDE)
+            total += np.bincount(u * sides[1] + v, weight * share, len(total))
+    return total.reshape(sides)

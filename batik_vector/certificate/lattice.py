@@ -107,17 +107,24 @@ def refined(translations: Iterable[tuple[Fraction, Fraction]]) -> tuple[tuple[Fr
     return tuple(basis)
 
 
+SHEARED = 0.1
+"""How far, in lengths of the shorter vector of a lattice, a stretch may carry the end of the longer one: a
+shear all but maps a long lattice onto itself, and is known by the whole short vector it makes at the end."""
+
+
 def turns(basis: Matrix, limit: float) -> list[Turn]:
     """Return the rotations and reflections that map a lattice onto itself, but for a stretch within limit.
 
     Args:
         basis: reduced, as columns, in mm.
-        limit: of the stretch, as a fraction.
+        limit: of the stretch, as a fraction; on a long lattice ``SHEARED`` is the less that counts.
 
     Returns:
         Rotations first, of higher order first; then reflections. Never the identity.
     """
     found = []
+    short, long = np.sort(np.hypot(*basis))
+    length = long / short
     for p, q, r, s in product((-1, 0, 1), repeat=4):
         matrix: Whole = ((p, q), (r, s))
         sign = determinant(matrix)
@@ -125,7 +132,7 @@ def turns(basis: Matrix, limit: float) -> list[Turn]:
         if order is None or order == 1:
             continue
         stretch = stretch_of(basis, matrix, order)
-        if stretch <= limit:
+        if stretch <= limit and stretch * length <= SHEARED:
             found.append(Turn(matrix, order, sign < 0, stretch))
     return sorted(found, key=lambda turn: (turn.mirror, -turn.order, turn.matrix))
 
@@ -158,10 +165,17 @@ MOST_PARTS = 64
 """Into how many equal parts a translation of the cell may fall."""
 
 
+MOST_OPERATIONS = 12
+"""Linear parts of p6m, the largest plane group."""
+
+
 def closed(
     found: Mapping[Whole, NDArray[np.float64]], turn: Whole, shift: NDArray[np.float64]
-) -> dict[Whole, NDArray[np.float64]]:
+) -> dict[Whole, NDArray[np.float64]] | None:
     """Return the operations that those given and one more generate, modulo the lattice.
+
+    None where these are more than any plane group has: linear parts that hold one by one, on a stretched
+    lattice, need not make up a group.
 
     Args:
         found: a group of operations x → A x + t in lattice coordinates, linear part → translation part.
@@ -176,6 +190,8 @@ def closed(
         for b, moved in makers:
             product_ = times(a, b)
             if product_ not in group:
+                if len(group) == MOST_OPERATIONS:
+                    return None
                 group[product_] = np.array(a, float) @ moved + group[a]
                 queue.append(product_)
     return group

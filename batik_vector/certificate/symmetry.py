@@ -17,7 +17,7 @@ import numpy as np
 
 from batik_vector.artwork import Cell, Layer
 from batik_vector.certificate.agreement import Fit, Matcher
-from batik_vector.certificate.candidates import SIDE, Spectra
+from batik_vector.certificate.candidates import Spectra, pixel_of
 from batik_vector.certificate.group_names import ORBIFOLDS, name_of
 from batik_vector.certificate.lattice import (
     IDENTITY,
@@ -94,8 +94,7 @@ class _Search:
         self.basis = basis if self.along is None else self.along.basis
         self.drawn = drawn if self.along is None else self.along.drawn
         self.slack, self.stretch = slack, stretch
-        pixel = float(np.hypot(*self.basis).max()) / SIDE
-        self.matcher = Matcher(self.drawn.edges, self.basis, slack, pixel)
+        self.matcher = Matcher(self.drawn.edges, self.basis, slack, pixel_of(self.basis))
         self.refused: list[tuple[float, Whole, Matrix, Vector]] = []
         self.deviation = 0.0
 
@@ -156,8 +155,7 @@ class _Search:
 
     def _whole(self, place: Vector, basis: Matrix) -> bool:
         """Whether lattice coordinates are whole numbers, as far as a grid of the correlation tells."""
-        pixel = 1.5 * float(np.hypot(*self.basis).max()) / SIDE
-        return bool(np.hypot(*(basis @ (place - np.rint(place)))) <= pixel)
+        return bool(np.hypot(*(basis @ (place - np.rint(place)))) <= 1.5 * pixel_of(self.basis))
 
     def _with(
         self, turn: Turn, found: dict[Whole, Vector], lattice: Matrix, spectra: Spectra
@@ -174,6 +172,8 @@ class _Search:
             if not self._accepted(fit, turn.matrix, matrix, shift):
                 continue
             more = closed(found, turn.matrix, np.asarray(np.linalg.solve(lattice, shift)))
+            if more is None:
+                continue
             fits = [self._follows(more[each], each, lattice, limit) for each in more if each not in found]
             if all(fit.holds for fit in fits):
                 self.deviation = max(self.deviation, *(fit.worst for fit in fits))

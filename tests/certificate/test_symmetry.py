@@ -10,6 +10,7 @@ import pytest
 import shapely
 
 from batik_vector.artwork import Cell, DropAxis, Geometries, Ink, Layer
+from batik_vector.certificate.lattice import IDENTITY, closed
 from batik_vector.certificate.operations import FoundGroup, OperationKind
 from batik_vector.certificate.symmetry import found_group
 from tests.certificate.positions import (
@@ -334,3 +335,24 @@ def test_the_answer_does_not_depend_on_where_the_tile_was_cut() -> None:
     ]
     assert {each.name for each in found} == {"pmg"}
     assert {each.copies for each in found} == {4}
+
+
+@pytest.mark.parametrize("ratio", [20, 50, 300, 1000])
+@pytest.mark.parametrize("group", ["p1", "pm", "pmm", "cmm"])
+def test_a_long_tile_is_answered_and_has_its_group(ratio: int, group: str) -> None:
+    # A shear by one short side all but keeps a long lattice; with a mirror it makes operations without end.
+    places = {
+        "p1": [(0.3, 0.2, 1.0), (0.62, 0.35, 0.7)],
+        "pm": [(0.1, 0.5, 1.0), (0.3, 0.5, 1.0), (0.6, 0.5, 0.7)],
+        "pmm": [(0.25, 0.5, 1.0), (0.75, 0.5, 1.0), (0.0, 0.5, 0.5), (1.0, 0.5, 0.5)],
+        "cmm": [(0.25, 0.25, 0.6), (0.75, 0.75, 0.6), (0.25, 0.75, 0.4), (0.75, 0.25, 0.4)],
+    }[group]
+    dots = [shapely.Point(6 * ratio * x, 6 * y).buffer(size) for x, y, size in places]
+    assert group_of(Cell(6000 * ratio, 6000), *dots).name == group
+
+
+def test_operations_that_make_up_no_group_are_none() -> None:
+    mirror, sheared = ((-1, 0), (0, 1)), ((-1, 1), (0, 1))
+    none = np.zeros(2)
+    assert closed({IDENTITY: none, mirror: none}, sheared, none) is None
+    assert len(closed({IDENTITY: none, mirror: none}, ((1, 0), (0, -1)), none) or ()) == 4
