@@ -8,7 +8,8 @@ seam, or stops short of it.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,6 +38,13 @@ class Crossings:
     there: Intervals
     breaks: Intervals
     mismatch: float
+
+    def only(self, counts: Callable[[float, float], bool]) -> Crossings:
+        """Return what is left where of all breaks only some count, by where (steps) they begin and end."""
+        rows = [counts(low, high) for low, high in self.breaks.tolist()]
+        return replace(
+            self, breaks=self.breaks[np.array(rows, bool)], mismatch=self.mismatch if any(rows) else 0.0
+        )
 
     @property
     def paired(self) -> NDArray[np.int64]:

@@ -8,6 +8,9 @@ the same; the artwork says where one does, by a border of no length.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -34,6 +37,18 @@ class LineEnds:
     far: NDArray[np.int64]
     apart: NDArray[np.intp]
     met: NDArray[np.int64]
+
+    def only(self, counts: Callable[[float, float], bool]) -> LineEnds:
+        """Return what is left where of all places that are alone only some count."""
+        near = np.array([counts(along, along) for along in self.near.tolist()], bool)
+        far = np.array([counts(along, along) for along in self.far.tolist()], bool)
+        # Of a pair that stands apart both count, or neither.
+        for row, column in self.apart.tolist():
+            near[row] = far[column] = near[row] or far[column]
+        number, other = np.cumsum(near) - 1, np.cumsum(far) - 1
+        pairs = self.apart[near[self.apart[:, 0]]] if len(self.apart) else self.apart
+        apart = np.column_stack([number[pairs[:, 0]], other[pairs[:, 1]]]) if len(pairs) else pairs
+        return replace(self, near=self.near[near], far=self.far[far], apart=apart)
 
     @property
     def displacement(self) -> NDArray[np.float64]:

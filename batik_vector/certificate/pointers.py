@@ -36,14 +36,21 @@ SEGMENTS = 48
 
 
 def pointers(artwork: Artwork, certificate: Certificate) -> Artwork:
-    """Return the artwork with a layer "check" on top: a ring, a cross-hair and an arrow at each fault.
+    """Return the artwork with a layer "check" on top: a ring, a cross-hair and an arrow at each fault and
+    each remark.
 
     What lies on an edge of the page is marked on the opposite edge too. The marks stay on the page. An
     artwork that is not in the normal form is brought to it, as exporters ask. Where nothing is wrong, no
     layer is added.
     """
     artwork = artwork if not violations(artwork) else _tidied(artwork)
-    places = sorted({place for fault in certificate.faults for place in _shown(fault.where, artwork)})
+    places = sorted(
+        {
+            place
+            for fault in (*certificate.faults, *certificate.remarks)
+            for place in _shown(fault.where, artwork)
+        }
+    )
     if not places:
         return artwork
     cell = artwork.cell

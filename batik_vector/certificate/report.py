@@ -30,6 +30,10 @@ class Kind(enum.StrEnum):
     """A border or a line turns where it crosses the seam."""
     IDENTITY = "identity"
     """The field cut elsewhere is not the tile, or the bleed does not repeat it."""
+    ORDER = "order"
+    """The same marks meet at the seam, and another of them lies on top."""
+    TINT = "tint"
+    """Two tints, or a colour that runs, meet at the seam."""
     SLIVER = "sliver"
     """A thin slit of ground, or strip of ink, runs along the seam."""
     DOUBLE = "double"
@@ -61,6 +65,11 @@ class Limits:
     striping: float | None = None
     """Unevenness (percent) of columns or rows past which the tile fails; None only reports it."""
 
+    @property
+    def hair(self) -> float:
+        """How far (mm) ink may stand from an edge and still be taken to end on it."""
+        return self.position / 8
+
     def __post_init__(self) -> None:
         for name, value in vars(self).items():
             if value is not None and not 0 <= value < math.inf:
@@ -80,6 +89,19 @@ class SeamFault:
     where: Place
     words: str
     amount: float
+
+
+@frozen
+class EdgeStretch:
+    """Ink that ends along an edge of the page by design: from ``low`` to ``high`` in mm along that edge.
+
+    ``edge`` is "left", "right", "lower" or "upper".
+    """
+
+    edge: str
+    ink: str
+    low: float
+    high: float
 
 
 @frozen(kw_only=True)
@@ -128,7 +150,9 @@ class Certificate:
 
     ``cell`` is its width and height in mm, ``drop`` as text ("0", "1/2"), ``group`` the symmetry group found
     in the geometry and ``asked`` the one expected, None where nobody looked or asked. ``exact`` says that all
-    coordinates lie on the 1 µm grid; others are measured on a grid of ``grid`` mm.
+    coordinates lie on the 1 µm grid; others are measured on a grid of ``grid`` mm. ``remarks`` are told as
+    faults are, and let the tile pass. ``along`` is the ink that ends along the page's edges by design,
+    ``hints`` say what would mend a fault, and ``unmeasured`` what no verdict is given about.
     """
 
     title: str
@@ -142,6 +166,10 @@ class Certificate:
     group: str | None
     asked: str | None
     faults: tuple[SeamFault, ...]
+    remarks: tuple[SeamFault, ...] = ()
+    along: tuple[EdgeStretch, ...] = ()
+    hints: tuple[str, ...] = ()
+    unmeasured: tuple[str, ...] = ()
 
     @property
     def passed(self) -> bool:
@@ -161,17 +189,30 @@ class Certificate:
             "measures": _plain(asdict(self.worst)),
             "inks": {name: _plain(asdict(measures)) for name, measures in self.inks.items()},
             "limits": asdict(self.limits),
-            "faults": [
+            "faults": [_fault(fault) for fault in self.faults],
+            "remarks": [_fault(fault) for fault in self.remarks],
+            "ends_along_edges": [
                 {
-                    "kind": str(fault.kind),
-                    "ink": fault.ink,
-                    "where_mm": [_rounded(fault.where[0]), _rounded(fault.where[1])],
-                    "amount": _rounded(fault.amount),
-                    "words": fault.words,
+                    "edge": each.edge,
+                    "ink": each.ink,
+                    "from_mm": _rounded(each.low),
+                    "to_mm": _rounded(each.high),
                 }
-                for fault in self.faults
+                for each in self.along
             ],
+            "hints": list(self.hints),
+            "unmeasured": list(self.unmeasured),
         }
+
+
+def _fault(fault: SeamFault) -> dict[str, Any]:
+    return {
+        "kind": str(fault.kind),
+        "ink": fault.ink,
+        "where_mm": [_rounded(fault.where[0]), _rounded(fault.where[1])],
+        "amount": _rounded(fault.amount),
+        "words": fault.words,
+    }
 
 
 def _plain(values: dict[str, Any]) -> dict[str, Any]:

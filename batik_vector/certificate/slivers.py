@@ -103,13 +103,13 @@ def _of_areas(ink: InkDrawing, field: Elsewhere, axis: int, limits: Limits) -> l
     edges = ring_edges(np.concatenate([field.healed, field.whole]))
     along = _along(edges, axis, field.frame)
     # Ink lies on the left of an edge: of one that runs up, at smaller x; of one that runs right, at larger y.
-    return _facing(along, axis, limits.thin, field.frame)
+    return _facing(along, axis, limits, field.frame)
 
 
 def _of_lines(ink: InkDrawing, axis: int, limits: Limits, frame: Frame) -> list[Sliver]:
     edges = _with_repeats(ink.strokes, axis, limits, frame)
     along = _along(edges, axis, frame)
-    return _facing(Along(along.at, along.low, along.high, along.side * 0), axis, limits.thin, frame)
+    return _facing(Along(along.at, along.low, along.high, along.side * 0), axis, limits, frame)
 
 
 def _with_repeats(strokes: Edges, axis: int, limits: Limits, frame: Frame) -> Edges:
@@ -136,11 +136,14 @@ def _along(edges: Edges, axis: int, frame: Frame) -> Along:
     )
 
 
-def _facing(along: Along, axis: int, thin: float, frame: Frame) -> list[Sliver]:
-    """Return the pairs of edges that face each other at a distance of up to ``thin`` mm, and not none."""
+def _facing(along: Along, axis: int, limits: Limits, frame: Frame) -> list[Sliver]:
+    """Return the pairs of edges that face each other, no further apart than slivers are broad, and not none.
+
+    A hair that the limit for crossings puts up with is none.
+    """
     if len(along.at) < 2:
         return []
-    reach, least = thin * frame.per_mm, 1.0
+    reach, least = limits.thin * frame.per_mm, max(1.0, limits.hair * frame.per_mm)
     boxes = shapely.box(along.at, along.low, along.at, along.high)
     wider = shapely.box(along.at + least, along.low, along.at + reach, along.high)
     one, other = shapely.STRtree(boxes).query(wider)

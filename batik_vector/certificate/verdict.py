@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -12,8 +13,13 @@ from batik_vector.certificate.density import profile, unevenness
 from batik_vector.certificate.drawing import Drawing, InkDrawing, drawing, uncut
 from batik_vector.certificate.duplicates import doubled_areas, doubled_lines
 from batik_vector.certificate.expectations import Asked, contained
+from batik_vector.certificate.hints import hints
 from batik_vector.certificate.identity import allowed, bleed_difference, rolled_difference
 from batik_vector.certificate.line_ends import LineEnds, end_faults, line_ends
+from batik_vector.certificate.picture.bodies import Bodies
+from batik_vector.certificate.picture.faults import declared, joint_fault, stretches
+from batik_vector.certificate.picture.joints import Joints, joints_of
+from batik_vector.certificate.picture.rim import Rim
 from batik_vector.certificate.recut import elsewhere
 from batik_vector.certificate.report import Certificate, Kind, Limits, Measures, SeamFault, together
 from batik_vector.certificate.seam import Seam, seams_of
@@ -43,7 +49,14 @@ class _Ledger:
 
 
 def certify(
-    artwork: Artwork, *, asked: str | Asked | None = None, limits: Limits = DEFAULT, symmetry: bool = True
+    artwork: Artwork,
+    *,
+    asked: str | Asked | None = None,
+    limits: Limits = DEFAULT,
+    symmetry: bool = True,
+    bodies: Bodies | None = None,
+    unmeasured: Sequence[str] = (),
+    remarked: Collection[Kind] = (),
 ) -> Certificate:
     """Measure the seams of a tile.
 
@@ -55,6 +68,11 @@ def certify(
         limits: how much is allowed.
         symmetry: whether to look for the symmetry group, which takes longest; it is done anyway where one
             was asked for.
+        bodies: what a stranger's drawing paints along the edges of its page. With them it is the picture that
+            has to meet at the seam, and not each ink for itself, and ink may end along it by design. Without
+            them each ink is a plate of its own, and what may end at the seam stands in ``artwork.borders``.
+        unmeasured: what is known to lie beyond all measures, in words.
+        remarked: kinds of faults that are told, and let the tile pass.
 
     Raises:
         GeometryError: where a coordinate is not finite.
@@ -63,7 +81,7 @@ def certify(
     wanted = Asked(group(asked).name) if isinstance(asked, str) else asked
     tile = drawing(artwork)
     ledger = _Ledger(limits, {ink.ink.name: [] for ink in tile})
-    _check_crossings(tile, artwork, ledger)
+    joints = _check_crossings(tile, artwork, ledger, bodies)
     for ink in tile:
         _check_field(ink, tile, artwork, ledger)
         _check_doubles(ink, tile, ledger)
@@ -81,14 +99,21 @@ def certify(
         inks=inks,
         group=found,
         asked=wanted.name if wanted else None,
-        faults=tuple(ledger.faults),
+        faults=tuple(fault for fault in ledger.faults if fault.kind not in remarked),
+        remarks=tuple(fault for fault in ledger.faults if fault.kind in remarked),
+        along=stretches(joints, bodies) if bodies else declared(artwork.borders, artwork.cell),
+        hints=tuple(hints(ledger.faults, together(inks.values()), tile.frame, bodies, limits)),
+        unmeasured=tuple(unmeasured),
     )
 
 
-def _check_crossings(tile: Drawing, artwork: Artwork, ledger: _Ledger) -> None:
+def _check_crossings(tile: Drawing, artwork: Artwork, ledger: _Ledger, bodies: Bodies | None) -> list[Joints]:
+    """Measure what crosses the seams; return the joints of a drawing's bodies, seam by seam."""
     limits, finer = ledger.limits, tile.frame.per_mm // STEPS_PER_MM
     seams = seams_of(tile.frame)
     ends = [line_ends(ink, seams, artwork.borders, limits, finer) for ink in tile]
+    rim = Rim(bodies, seams) if bodies else None
+    joints = []
     for number, seam in enumerate(seams):
         borders = [area_crossings(ink, seam, artwork.borders, limits, finer) for ink in tile]
         lines = [each[number] for each in ends]
@@ -100,10 +125,22 @@ def _check_crossings(tile: Drawing, artwork: Artwork, ledger: _Ledger) -> None:
                 ledger,
             )
             _note_turns(line_turns(found.ink, seam, artwork.tolerance, limits), found.ink, seam, ledger)
-            ledger.note(found.ink, found.measures)
+        if bodies and rim:
+            seen = joints_of(rim, seam, tile, limits)
+            joints.append(seen)
+            borders = [each.only(seen.touches) for each in borders]
+            lines = [each.only(seen.touches) for each in lines]
+        for crossed in borders:
+            ledger.note(crossed.ink, crossed.measures)
         for ended in lines:
             ledger.note(ended.ink, ended.measures(limits.position))
         _accuse_breaks(borders, lines, seam, ledger)
+        if bodies and rim:
+            told = [
+                place for kind in (borders, lines) for each in kind for place in each.broken(limits.position)
+            ]
+            ledger.accuse(*(joint_fault(each, seam, bodies) for each in seen.untold(told)))
+    return joints
 
 
 def _accuse_breaks(borders: list[Crossings], lines: list[LineEnds], seam: Seam, ledger: _Ledger) -> None:

@@ -157,6 +157,7 @@ def _limit(name: str, metavar: str, says: str) -> Callable[[Any], Any]:
 @_limit("thin", "MM", "What is thinner along the seam is a sliver.  [default: 0.02]")
 @_limit("double", "MM", "Lines this close are drawn twice.  [default: 0.005]")
 @_limit("striping", "%", "Unevenness of columns or rows that is a fault; without it none is.")
+@click.option("--lenient", is_flag=True, help="Let pass what cannot be measured, such as blended colours.")
 @click.option("--pointers", metavar="DIR", help="Write NAME-check.svg with a mark at each fault.")
 @_json
 def check_command(
@@ -165,6 +166,7 @@ def check_command(
     repeat: str | None,
     group: str | None,
     pointers: str | None,
+    lenient: bool,
     as_json: bool,
     **limits: float | None,
 ) -> None:
@@ -175,13 +177,12 @@ def check_command(
     """
     from pathlib import Path
 
-    from batik_vector.certificate import Limits
     from batik_vector.command.checks import Wishes, check_source, pointer_files, write_pointers
 
     _ready()
     with _report(as_json) as report:
         given = {name: value for name, value in limits.items() if value is not None}
-        wishes = Wishes(repeat or "", group or "", Limits(**given))
+        wishes = Wishes(repeat or "", group or "", given, lenient)
         places = pointer_files(sources, Path(pointers)) if pointers is not None else {}
         found = []
         with _stages(as_json) as tell:

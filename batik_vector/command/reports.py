@@ -10,6 +10,12 @@ from batik_vector.units import format_mm
 MOST_FAULTS = 20
 """Faults of a tile that are told in words; the report for machines has them all."""
 
+MOST_REMARKS = 5
+"""Remarks that are told in words."""
+
+MOST_STRETCHES = 4
+"""Stretches of ink along the edges that are told in words."""
+
 TOLD_PERCENT = 0.001
 """A stretch below this comes from the grid alone, and nobody need hear of it."""
 
@@ -22,14 +28,36 @@ def told(facts: dict[str, Any]) -> list[str]:
     if count > MOST_FAULTS:
         wrong = [*wrong[:MOST_FAULTS], f"  and {count - MOST_FAULTS} more: --json tells them all"]
     lines += wrong
+    lines += _remarks(facts["certificate"])
+    lines += [f"  hint: {words}" for words in facts["certificate"]["hints"]]
+    lines += [f"  not measured: {words}" for words in facts["certificate"]["unmeasured"]]
     lines += [f"  differs: {words}" for words in facts["differences"]]
     lines += [f"  warning: {words}" for words in facts["warnings"]]
     lines += [f"  note: {words}" for words in facts["notes"]]
     if facts["passed"]:
-        lines.append(f"{source}: passed: opposite edges agree, nothing is drawn twice")
+        lines.append(f"{source}: passed{_passed(facts['certificate'])}")
+    elif not count:
+        lines.append(f"{source}: NOT PASSED: no fault, but not all could be measured; --lenient lets it pass")
     else:
         lines.append(f"{source}: FAILED: {count} fault{'s' if count != 1 else ''}")
     return lines
+
+
+def _passed(certificate: dict[str, Any]) -> str:
+    """Return what is said behind "passed": that all agrees, or where ink ends by design."""
+    along = certificate["ends_along_edges"]
+    if not along:
+        return ": opposite edges agree" + ("" if certificate["remarks"] else ", nothing is drawn twice")
+    places = [
+        f"the {each['edge']} edge at {'xy'[each['edge'][0] in 'lr' and each['edge'] != 'lower']} = "
+        f"{format_mm(each['from_mm'])} to {format_mm(each['to_mm'])}"
+        for each in along[:MOST_STRETCHES]
+    ]
+    more = f", and {len(along) - MOST_STRETCHES} more" if len(along) > MOST_STRETCHES else ""
+    return (
+        f"; ink ends along {', '.join(places)}{more} (exact there; welding or overprint decides whether a "
+        "hair shows)"
+    )
 
 
 def _drawing(facts: dict[str, Any]) -> Iterator[str]:
@@ -70,10 +98,22 @@ def _faults(facts: dict[str, Any]) -> Iterator[str]:
     for gap in facts["seam"] if not certified else ():
         words = f"{gap['edges']} edges disagree from {gap['from_mm']:g} to {gap['to_mm']:g} mm"
         yield f"  fault: {gap['ink']}: {words}"
-    for fault in certified:
-        x, y = fault["where_mm"]
-        ink = f"{fault['ink']}: " if fault["ink"] else ""
-        yield f"  at {x:.3f}, {y:.3f} mm: {ink}{fault['words']}"
+    yield from (f"  {_at(fault)}" for fault in certified)
+
+
+def _at(fault: dict[str, Any]) -> str:
+    x, y = fault["where_mm"]
+    ink = f"{fault['ink']}: " if fault["ink"] else ""
+    return f"at {x:.3f}, {y:.3f} mm: {ink}{fault['words']}"
+
+
+def _remarks(certificate: dict[str, Any]) -> list[str]:
+    """Return the lines that tell what is no fault of the seam, and would be one for a plotter."""
+    remarks = certificate["remarks"]
+    lines = [f"  remark: {_at(fault)}" for fault in remarks[:MOST_REMARKS]]
+    if len(remarks) > MOST_REMARKS:
+        lines.append(f"  and {len(remarks) - MOST_REMARKS} more: --json tells them all")
+    return lines
 
 
 def made_of(done: dict[str, Any]) -> Iterator[str]:

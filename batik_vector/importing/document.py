@@ -55,6 +55,12 @@ class Document:
     generator: str = ""
     notes: list[str] = field(default_factory=list)
     faults: dict[str, Fault] = field(default_factory=dict)
+    unmeasured: list[str] = field(default_factory=list)
+
+    def leave_open(self, words: str) -> None:
+        """Tell once what a certificate cannot answer for."""
+        if words not in self.unmeasured:
+            self.unmeasured.append(words)
 
     def note(self, words: str) -> None:
         """Tell something once."""

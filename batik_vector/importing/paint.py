@@ -8,10 +8,15 @@ import zlib
 
 from batik_vector.importing.colours import colour_of
 from batik_vector.importing.document import MAX_DEPTH, Document, local, reference
+from batik_vector.importing.gradients import declared_on, gradient_of
+from batik_vector.importing.matrix import Matrix
+from batik_vector.importing.painting import Paint
 from batik_vector.importing.styles import Style, share_of
 
 EXPAND = "expand it to outlines first"
 _URL = re.compile(r"""\s*+url\(\s*+['"]?+([^'")]*+)['"]?+\s*+\)(.*+)""", re.DOTALL)
+Box = tuple[float, float, float, float]
+"""Left, upper edge, width and height."""
 GRADIENTS = ("linearGradient", "radialGradient", "meshgradient")
 
 
@@ -38,8 +43,32 @@ def paint_of(document: Document, element: ET.Element, style: Style, what: str) -
     if opacity == 0:
         return ""
     if opacity * share * share_of(style.get("opacity", "1")) < 1:
-        document.note("what is half transparent is taken as solid")
+        document.note("what is half transparent is taken as solid, but at the seam, where tints must agree")
     return colour
+
+
+def look_of(
+    document: Document, style: Style, what: str, ink: str, opacity: float, space: tuple[Matrix, Box]
+) -> Paint | None:
+    """Return what a fill or a stroke looks like on a screen; None where that cannot be told.
+
+    Args:
+        document: where its gradients stand.
+        style: of the shape.
+        what: "fill" or "stroke".
+        ink: the colour that stands for it, as :func:`paint_of` finds it.
+        opacity: of the groups that it lies in, and its own.
+        space: from the shape's user units to the page, and the shape's box in them.
+    """
+    text = style[what]
+    opacity *= share_of(style[f"{what}-opacity"])
+    server = url_of(text)
+    target = document.by_id.get(server[0][1:]) if server and server[0].startswith("#") else None
+    if target is not None:
+        ramp = gradient_of(document, target, *space, style["color"])
+        return None if ramp is None else Paint(ink, ink, opacity, ramp)
+    found = colour_of(server[1] if server else text, style["color"])
+    return Paint(ink, ink, opacity * (found[1] if found else 1.0))
 
 
 def url_of(text: str) -> tuple[str, str] | None:
@@ -78,14 +107,8 @@ def _first_stop(document: Document, server: ET.Element | None) -> str:
             break
         for stop in server.iter():
             if local(stop) == "stop":
-                text = _declared(stop, "stop-color") or "black"
+                text = declared_on(stop, "stop-color") or "black"
                 found = colour_of(text)
                 return found[0] if found else _stand_in(document, text)
         server = document.by_id.get(reference(server)[1:])
     return ""
-
-
-def _declared(element: ET.Element, name: str) -> str:
-    pairs = (part.split(":", 1) for part in (element.get("style") or "").split(";") if ":" in part)
-    values = {key.strip(): value.strip() for key, value in pairs}
-    return values.get(name) or element.get(name) or ""

@@ -24,6 +24,10 @@ INITIAL: Mapping[str, str] = {
     "stroke-opacity": "1",
     "stroke-width": "1",
     "stroke-dasharray": "none",
+    "stroke-dashoffset": "0",
+    "stroke-linecap": "butt",
+    "stroke-linejoin": "miter",
+    "stroke-miterlimit": "4",
     "visibility": "visible",
     "color": "black",
     "marker-start": "none",
@@ -32,7 +36,8 @@ INITIAL: Mapping[str, str] = {
 }
 """The properties that children inherit, and how they begin (SVG 2, appendix F)."""
 ORIGIN = ("transform-origin", "transform-box")
-OWN = ("display", "opacity", "clip-path", "mask", "filter", "overflow", "transform", "vector-effect", *ORIGIN)
+_DRAWN = ("opacity", "clip-path", "mask", "filter", "mix-blend-mode", "vector-effect")
+OWN = ("display", "overflow", "transform", *_DRAWN, *ORIGIN)
 """The properties that stay with their element."""
 READ = frozenset(INITIAL) | frozenset(OWN) | {"marker"}
 GEOMETRY: Mapping[str, tuple[str, ...]] = {

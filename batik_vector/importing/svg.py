@@ -16,11 +16,13 @@ import numpy as np
 
 from batik_vector.artwork import Artwork, Cell, DropAxis
 from batik_vector.errors import GeometryError, TooLargeError
+from batik_vector.importing.bodies import bodies_on_rim
 from batik_vector.importing.document import Document, DrawingError, children, load, local, parse
 from batik_vector.importing.inks import Marks, layers_of, painted
 from batik_vector.importing.matrix import Matrix
 from batik_vector.importing.outlines import CURVE, joined
 from batik_vector.importing.page import Page, page_of
+from batik_vector.importing.painting import Bodies
 from batik_vector.importing.polylines import flattened
 from batik_vector.importing.walk import Shape, Walker
 from batik_vector.tiling.symmetry.repeats import parse_repeat
@@ -40,7 +42,8 @@ class Reading:
 
     ``page`` is the size in mm that the file gives, before its sides came to whole micrometres. ``notes``
     say, for people, what was guessed, taken for something else or passed over. ``ours`` tells whether the
-    file says that this program wrote it, ``curved`` whether it draws any curves.
+    file says that this program wrote it, ``curved`` whether it draws any curves. ``bodies`` are what it
+    paints along the edges of its page, and ``unmeasured`` says what no certificate can answer for.
     """
 
     artwork: Artwork
@@ -48,6 +51,8 @@ class Reading:
     notes: tuple[str, ...]
     ours: bool
     curved: bool
+    bodies: Bodies
+    unmeasured: tuple[str, ...] = ()
 
 
 def read_tile(
@@ -96,11 +101,13 @@ def read_svg(
         marks = _marks(shapes, page, cell, tolerance, bleed)
     except TooLargeError as error:
         raise document.fault(str(error)) from error
+    bodies = bodies_on_rim(marks, cell, tolerance)
     layers, cloth = layers_of(document, marks, cell, bleed, ours)
     _page_notes(document, page, cell, bleed)
     artwork = Artwork(_title(document), cell, layers, cloth, tolerance, bleed)
     curved = any((shape.outline.kinds == CURVE).any() for shape in shapes)
-    return Reading(artwork, (page.width, page.height), tuple(document.notes), ours, curved)
+    notes, unmeasured = tuple(document.notes), tuple(document.unmeasured)
+    return Reading(artwork, (page.width, page.height), notes, ours, curved, bodies, unmeasured)
 
 
 def _cell(document: Document, page: Page, drop: Fraction, axis: DropAxis, bleed: float) -> Cell:
@@ -120,7 +127,7 @@ def _marks(shapes: list[Shape], page: Page, cell: Cell, tolerance: float, bleed:
     outline = joined([shape.outline for shape in shapes]).moved(flip)
     lines = flattened(outline, cell.width, cell.height, tolerance)
     counts = np.array([len(shape.outline.closed) for shape in shapes], np.intp)
-    return painted(shapes, lines, counts, outline.closed)
+    return painted([shape.under(flip) for shape in shapes], lines, counts, outline.closed)
 
 
 def _page_notes(document: Document, page: Page, cell: Cell, bleed: float) -> None:

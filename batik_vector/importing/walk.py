@@ -22,11 +22,14 @@ from batik_vector.importing.document import (
     local,
     reference,
 )
+from batik_vector.importing.gradients import Gradient
 from batik_vector.importing.matrix import IDENTITY, Matrix, moved, spread, times
 from batik_vector.importing.origins import transform_of
 from batik_vector.importing.outlines import Outline, polyline
 from batik_vector.importing.page import Page, fitted, parse_px, view_box
-from batik_vector.importing.paint import EXPAND, paint_of, url_of
+from batik_vector.importing.paint import EXPAND, look_of, paint_of, url_of
+from batik_vector.importing.painting import Paint
+from batik_vector.importing.pens import Pen, pen_of
 from batik_vector.importing.shapes import SHAPES, outline_of
 from batik_vector.importing.styles import GEOMETRY, INITIAL, MOVES, Style, Styles, share_of
 from batik_vector.values import frozen
@@ -58,7 +61,8 @@ class Shape:
     """Something painted: its outline in mm on the page, y down, and how it is filled and stroked.
 
     ``fill`` and ``stroke`` are ``#rrggbb``, or nothing. ``label`` is the name of the layer it lies in,
-    ``name`` its own. ``width`` is the stroke's, in mm.
+    ``name`` its own. ``width`` is the stroke's, in mm. ``looks`` are the paints of fill and stroke as they
+    show on a screen, None where that cannot be told, and ``pen`` is how a stroke's body is drawn.
     """
 
     outline: Outline
@@ -68,6 +72,15 @@ class Shape:
     rule: str
     stroke: str
     width: float
+    looks: tuple[Paint | None, Paint | None]
+    pen: Pen
+
+    def under(self, matrix: Matrix) -> Shape:
+        """Return the shape with paints for a page that is moved by an affine map, its outline left alone."""
+        if all(look is None or look.ramp is None for look in self.looks):
+            return self
+        one, other = (None if look is None else _under(look, matrix) for look in self.looks)
+        return replace(self, looks=(one, other))
 
 
 @frozen
@@ -81,6 +94,7 @@ class _Here:
     used: tuple[ET.Element, ...] = ()
     depth: int = 0
     frames: tuple[tuple[ET.Element, Outline, Matrix], ...] = ()
+    opacity: float = 1.0
 
 
 class Walker:
@@ -102,7 +116,7 @@ class Walker:
         """
         root = self.document.root
         style = self._styles.of(root, INITIAL)
-        here = _Here(self.page.matrix, style, size=self.page.size)
+        here = _Here(self.page.matrix, style, size=self.page.size, opacity=_opacity(style))
         if self._painted(root, style):
             self._refused_effects(root, style, here)
             for child in children(root):
@@ -125,7 +139,8 @@ class Walker:
             return
         self._refuse_styled_geometry(element, kind, style)
         matrix = times(here.matrix, self._transform(element, style, here))
-        inside = replace(here, matrix=matrix, style=style, depth=here.depth + 1)
+        opacity = here.opacity * _opacity(style)
+        inside = replace(here, matrix=matrix, style=style, depth=here.depth + 1, opacity=opacity)
         if inside.depth > MAX_DEPTH:
             raise self.document.fault(f"nested deeper than {MAX_DEPTH} elements", element)
         self._refused_effects(element, style, inside)
@@ -145,7 +160,7 @@ class Walker:
             self.document.note(f"<{kind}> is passed over")
 
     def _painted(self, element: ET.Element, style: Style) -> bool:
-        return style.get("display") != "none" and share_of(style.get("opacity", "1")) > 0
+        return style.get("display") != "none" and _opacity(style) > 0
 
     def _spend(self, element: ET.Element) -> None:
         """Count the work that an element makes each time a use leads to it, drawn or not."""
@@ -230,12 +245,13 @@ class Walker:
         if style["visibility"] != "visible" or not (fill or stroke):
             return
         try:
-            outline = outline_of(element, here.size).moved(here.matrix)
+            drawn = outline_of(element, here.size)
         except ValueError as error:
             self.document.refuse(element, str(error))
             return
-        if not len(outline.points):
+        if not len(drawn.points):
             return
+        outline = drawn.moved(here.matrix)
         self._count(element, outline)
         if not (np.abs(outline.points) <= MAX_REACH_MM).all():
             self.document.refuse(element, f"reaches further than {MAX_REACH_MM / 1e6:g} km from the page")
@@ -244,9 +260,21 @@ class Walker:
         if stroke:
             self._stroke_notes(element, style, here)
         breadth = self._breadth(style, width, here)
-        self.shapes.append(
-            Shape(outline, here.label, element.get("id", ""), fill, style["fill-rule"], stroke, breadth)
-        )
+        names = here.label, element.get("id", "")
+        looks = self._look("fill", fill, drawn, here), self._look("stroke", stroke, drawn, here)
+        pen = pen_of(style, here.size, breadth / width if width else 1.0)
+        self.shapes.append(Shape(outline, *names, fill, style["fill-rule"], stroke, breadth, looks, pen))
+
+    def _look(self, what: str, ink: str, drawn: Outline, here: _Here) -> Paint | None:
+        """Return how a fill or a stroke shows, and take note of what cannot be told."""
+        if not ink:
+            return Paint(ink, "#000000")
+        low, high = drawn.points.min(axis=0), drawn.points.max(axis=0)
+        box = (float(low[0]), float(low[1]), float(high[0] - low[0]), float(high[1] - low[1]))
+        look = look_of(self.document, here.style, what, ink, here.opacity, (here.matrix, box))
+        if look is None:
+            self.document.leave_open("whether the colours of a mesh gradient agree at the seam")
+        return look
 
     def _count(self, element: ET.Element, outline: Outline) -> None:
         self._points += len(outline.points)
@@ -264,7 +292,7 @@ class Walker:
 
     def _stroke_notes(self, element: ET.Element, style: Style, here: _Here) -> None:
         if style["stroke-dasharray"] not in ("none", "0"):
-            self.document.note("dashed lines are taken as whole ones")
+            self.document.note("dashed lines are taken as whole ones, but at the seam")
         if any(style[name] != "none" for name in ("marker-start", "marker-mid", "marker-end")):
             self.document.refuse(element, f"has markers at its ends; {EXPAND}")
 
@@ -272,6 +300,8 @@ class Walker:
         for name in ("mask", "filter"):
             if style.get(name, "none") not in ("none", ""):
                 self.document.refuse(element, f"has a {name}; {EXPAND}")
+        if style.get("mix-blend-mode", "normal") != "normal":
+            self.document.leave_open("how colours that are blended (mix-blend-mode) show at the seam")
         clip = url_of(style.get("clip-path", "none"))
         if clip is None:
             if style.get("clip-path", "none") not in ("none", ""):
@@ -303,6 +333,14 @@ class Walker:
             slack = FRAME_SLACK * np.ptp(corners, axis=0)
             if (low < corners.min(axis=0) - slack).any() or (high > corners.max(axis=0) + slack).any():
                 self.document.refuse(element, f"cuts off what reaches beyond its frame; {EXPAND}")
+
+
+def _under(look: Paint, matrix: Matrix) -> Paint:
+    return replace(look, ramp=look.ramp.under(matrix)) if isinstance(look.ramp, Gradient) else look
+
+
+def _opacity(style: Style) -> float:
+    return share_of(style.get("opacity", "1"))
 
 
 _SILENT = """

@@ -77,12 +77,27 @@ def test_every_broken_tile_has_its_line() -> None:
 @pytest.mark.parametrize("name", BROKEN)
 def test_a_broken_tile_fails_where_it_is_broken(name: str) -> None:
     kind, ink, (x, y), reach = BROKEN[name]
-    facts = checked(TILES / f"{name}.svg", "--group", "p4", code=1)
+    # What is drawn twice shows nowhere; it is a fault for those who ask for it.
+    asked = ("--double", "0.005") if kind == "double" else ()
+    facts = checked(TILES / f"{name}.svg", "--group", "p4", *asked, code=1)
     mine = [each for each in facts["certificate"]["faults"] if (each["kind"], each["ink"]) == (kind, ink)]
     assert mine, facts["certificate"]["faults"]
     apart = [round_the_torus(each["where_mm"], (x, y)) for each in mine]
     assert min(apart) <= reach
     assert not facts["passed"]
+
+
+@pytest.mark.parametrize("name", [name for name, (kind, *_) in BROKEN.items() if kind == "double"])
+def test_what_a_stranger_drew_twice_is_told_and_passes(name: str, desk: Path) -> None:
+    result = call(TILES / f"{name}.svg", "--pointers", ".")
+    assert result.exit_code == 0
+    assert "remark: at" in result.stderr
+    assert "are drawn twice" in result.stderr
+    assert "nothing is drawn twice" not in result.stderr
+    assert (desk / f"{name}-check.svg").exists()
+    facts = checked(TILES / f"{name}.svg")["certificate"]
+    assert {each["kind"] for each in facts["remarks"]} == {"double"}
+    assert facts["measures"]["doubled_length"] + facts["measures"]["doubled_area"] > 1
 
 
 def round_the_torus(one: list[float], other: tuple[float, float]) -> float:
@@ -159,7 +174,8 @@ def test_a_drop_is_believed_as_it_is_told(desk: Path) -> None:
     head = '<svg xmlns="http://www.w3.org/2000/svg" width="60mm" height="30mm" viewBox="0 0 60 30">'
     (desk / "a.svg").write_text(f"{head}{marks}</svg>")
     assert call("a.svg", "--repeat", "half-drop").exit_code == 0
-    assert call("a.svg").exit_code == 1
+    # Straight, its stems would end along the edges: that may be meant, and is told.
+    assert {each["edge"] for each in checked("a.svg")["certificate"]["ends_along_edges"]} == {"left", "right"}
 
 
 def test_the_report_for_people_tells_where_and_what() -> None:
@@ -287,10 +303,12 @@ def test_a_border_meant_to_run_along_the_seam_is_no_fault(desk: Path, output: st
     Path("k.toml").write_text(SQUARE + output)
     assert runner().invoke(cli, ["compile", "k.toml"]).exit_code == 0
     assert checked("k.svg")["passed"]
-    # Without its recipe nobody knows that it is meant.
+    # Without its recipe it is told, as of a stranger's drawing, and as of the recipe itself.
     text = re.sub("<metadata>.*</metadata>", "", Path("k.svg").read_text("utf-8"), flags=re.DOTALL)
     Path("bare.svg").write_text(text)
-    assert checked("bare.svg", code=1)["certificate"]["faults"][0]["kind"] == "unpaired"
+    for source in ("k.toml", "bare.svg"):
+        told = checked(source)["certificate"]["ends_along_edges"]
+        assert {(round(each["from_mm"]) % 40, round(each["to_mm"]) % 40) for each in told} == {(10, 30)}
 
 
 def test_a_file_that_shows_no_tile_says_what_it_shows(desk: Path) -> None:
