@@ -12,12 +12,15 @@ that length count that a seam parts. Two lines close together along the seam are
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
+
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
 from batik_vector.artwork import Overlap
-from batik_vector.certificate.drawing import Edges, Frame, InkDrawing, repeats
+from batik_vector.certificate.drawing import Edges, Frame, InkDrawing, joined, repeats
 from batik_vector.certificate.report import Kind, Limits, SeamFault
 from batik_vector.units import format_mm
 from batik_vector.values import frozen
@@ -77,6 +80,32 @@ def doubled_lines(ink: InkDrawing, frame: Frame, limits: Limits) -> tuple[float,
         longest = rows[np.argmax((shared.high - shared.low)[rows])]
         faults.append(_line_fault(shared, edges, int(longest), length, ink.ink.name, frame))
     return total, faults
+
+
+def shared_lines(inks: Sequence[InkDrawing], frame: Frame, limits: Limits) -> list[SeamFault]:
+    """Return a fault for each pair of lines of different inks that run along the same way."""
+    some = [ink for ink in inks if len(ink.strokes)]
+    if len(some) < 2:
+        return []
+    edges = joined([ink.strokes for ink in some])
+    counts = [int(ink.strokes.owner.max()) + 1 for ink in some]
+    begins = np.concatenate([[0], np.cumsum(counts)])
+    ink = np.repeat(np.arange(len(some)), [len(each.strokes) for each in some])
+    edges = replace(edges, owner=edges.owner + begins[ink])
+    shared = _shared(edges, frame, limits.double * frame.per_mm)
+    shared = shared.only(_counts(shared, edges, frame))
+    shared = shared.only((shared.one > shared.other) & (ink[shared.one] != ink[shared.other]))
+    pairs = np.column_stack([edges.owner[shared.one], edges.owner[shared.other]])
+    faults = []
+    for pair in np.unique(pairs, axis=0):
+        rows = np.flatnonzero((pairs == pair).all(axis=1))
+        length = float((shared.high - shared.low)[rows].sum()) / frame.per_mm
+        row = int(rows[np.argmax((shared.high - shared.low)[rows])])
+        mine, other = (some[ink[side[row]]].ink.name for side in (shared.one, shared.other))
+        fault = _line_fault(shared, edges, row, length, mine, frame)
+        words = f"{format_mm(length)} mm of a line are drawn in ink {other} too"
+        faults.append(replace(fault, kind=Kind.BETWEEN, words=words))
+    return faults
 
 
 def _line_fault(shared: Shared, edges: Edges, row: int, length: float, ink: str, frame: Frame) -> SeamFault:

@@ -29,6 +29,26 @@ _WITHIN = {
 """Groups among the maximal subgroups of each. International Tables for Crystallography A1, plane groups."""
 
 
+ORDERS = {
+    **dict.fromkeys(("p1",), 1),
+    **dict.fromkeys(("p2", "pm", "pg", "cm"), 2),
+    **dict.fromkeys(("p3",), 3),
+    **dict.fromkeys(("pmm", "pmg", "pgg", "cmm", "p4"), 4),
+    **dict.fromkeys(("p3m1", "p31m", "p6"), 6),
+    **dict.fromkeys(("p4m", "p4g"), 8),
+    **dict.fromkeys(("p6m",), 12),
+}
+"""Linear parts of each group."""
+
+
+def has_more(found: str, asked: str) -> bool:
+    """Whether a group has all the symmetry of another and more, and is not merely another one.
+
+    Groups of one order contain each other on larger cells, as p31m does p3m1: they are different groups.
+    """
+    return asked in contained(found) and ORDERS[found] > ORDERS[asked]
+
+
 @functools.cache
 def contained(name: str) -> frozenset[str]:
     """Return the groups that are subgroups of one, itself included, of this or a larger cell."""

@@ -38,6 +38,8 @@ class Kind(enum.StrEnum):
     """A thin slit of ground, or strip of ink, runs along the seam."""
     DOUBLE = "double"
     """The same stretch of line, or the same area, is drawn twice."""
+    BETWEEN = "between"
+    """Two inks leave a bare gap between them that is thinner than was allowed, or draw the same line."""
     SYMMETRY = "symmetry"
     """The drawing has another symmetry group than was asked for."""
     STRIPING = "striping"
@@ -62,6 +64,9 @@ class Limits:
     """Slits and strips along the seam narrower than this (mm) are slivers."""
     double: float = 0.005
     """Lines this close (mm) along a stretch are one line drawn twice."""
+    between: float | None = None
+    """Bare gaps between two inks narrower than this (mm), and lines that two inks draw, are faults; None
+    looks for none."""
     striping: float | None = None
     """Unevenness (percent) of columns or rows past which the tile fails; None only reports it."""
 

@@ -131,11 +131,11 @@ def shift_fault(shift: int, seam: Seam, along: float, broken: int) -> SeamFault:
     drop = (seam.slip - shift) % seam.length
     fraction = Fraction(drop, seam.length).limit_denominator(LARGEST_DENOMINATOR)
     if abs(fraction * seam.length - drop) <= AGREE_MM * seam.frame.per_mm:
-        words += f": the drawing repeats as {_repeat(fraction % 1, seam.axis)}"
+        words += f": the drawing repeats as {repeat_words(fraction % 1, seam.axis)}"
     return SeamFault(Kind.SHIFT, "", seam.place(along, False), words, abs(mm))
 
 
-def _repeat(drop: Fraction, axis: int) -> str:
+def repeat_words(drop: Fraction, axis: int) -> str:
     """Name a drop as a recipe writes it."""
     if not drop:
         return '"grid"'

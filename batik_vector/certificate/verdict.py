@@ -11,8 +11,9 @@ from batik_vector.artwork import Artwork
 from batik_vector.certificate.crossings import Crossings, area_crossings, break_faults
 from batik_vector.certificate.density import profile, unevenness
 from batik_vector.certificate.drawing import Drawing, InkDrawing, drawing, uncut
-from batik_vector.certificate.duplicates import doubled_areas, doubled_lines
-from batik_vector.certificate.expectations import Asked, contained
+from batik_vector.certificate.duplicates import doubled_areas, doubled_lines, shared_lines
+from batik_vector.certificate.expectations import Asked, has_more
+from batik_vector.certificate.gaps import bare_gaps
 from batik_vector.certificate.hints import hints
 from batik_vector.certificate.identity import allowed, bleed_difference, rolled_difference
 from batik_vector.certificate.line_ends import LineEnds, end_faults, line_ends
@@ -85,9 +86,13 @@ def certify(
     for ink in tile:
         _check_field(ink, tile, artwork, ledger)
         _check_doubles(ink, tile, ledger)
+    if limits.between is not None:
+        ledger.accuse(*shared_lines(tile.inks, tile.frame, limits), *bare_gaps(tile, limits.between))
     columns, rows = (_check_striping(tile, axis, ledger) for axis in (0, 1))
     found = _check_symmetry(artwork, wanted, ledger) if symmetry or wanted else None
     inks = {name: together(measures) for name, measures in ledger.noted.items()}
+    apart = max((each.mismatch for each in joints), default=0.0)
+    worst = together([*inks.values(), Measures(mismatch=apart)])
     return Certificate(
         title=artwork.title,
         cell=(artwork.cell.width, artwork.cell.height),
@@ -95,14 +100,14 @@ def certify(
         exact=tile.frame.exact,
         grid=1 / tile.frame.per_mm,
         limits=limits,
-        worst=replace(together(inks.values()), columns=columns, rows=rows),
+        worst=replace(worst, columns=columns, rows=rows),
         inks=inks,
         group=found,
         asked=wanted.name if wanted else None,
         faults=tuple(fault for fault in ledger.faults if fault.kind not in remarked),
         remarks=tuple(fault for fault in ledger.faults if fault.kind in remarked),
         along=stretches(joints, bodies) if bodies else declared(artwork.borders, artwork.cell),
-        hints=tuple(hints(ledger.faults, together(inks.values()), tile.frame, bodies, limits)),
+        hints=tuple(hints(ledger.faults, tile, bodies, joints, limits)),
         unmeasured=tuple(unmeasured),
     )
 
@@ -223,7 +228,7 @@ def _check_symmetry(artwork: Artwork, asked: Asked | None, ledger: _Ledger) -> s
         return found.name
     words = f"the drawing has the symmetry group {found.name}, and {asked.name} was asked for"
     where, ink, amount = (artwork.cell.width / 2, artwork.cell.height / 2), "", 0.0
-    if asked.name in contained(found.name):
+    if has_more(found.name, asked.name):
         words += ": it has more symmetry than that"
     elif found.misses:
         miss = found.misses[0]

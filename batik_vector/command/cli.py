@@ -141,9 +141,9 @@ def _bytes(count: int) -> str:
     return f"{count / 1e6:.1f} MB" if count >= 1e6 else f"{count / 1e3:.1f} kB"
 
 
-def _limit(name: str, metavar: str, says: str) -> Callable[[Any], Any]:
+def _limit(name: str, metavar: str, says: str, option: str = "") -> Callable[[Any], Any]:
     """Return an option that sets one of the certificate's limits."""
-    return click.option(f"--{name}", type=click.FloatRange(min=0), metavar=metavar, help=says)
+    return click.option(f"--{option or name}", name, type=click.FloatRange(min=0), metavar=metavar, help=says)
 
 
 @cli.command("check")
@@ -151,11 +151,19 @@ def _limit(name: str, metavar: str, says: str) -> Callable[[Any], Any]:
 @_set
 @click.option("--repeat", metavar="WORDS", help="How a drawing without a recipe repeats.  [default: grid]")
 @click.option("--group", metavar="NAME", help="The wallpaper group it ought to have, such as p4m.")
-@_limit("position", "MM", "How far a crossing and its twin may stand apart.  [default: 0.0001]")
+@_limit(
+    "position", "MM", "How far a crossing and its twin may stand apart.  [default: 0.0001; drawings 0.04]"
+)
 @_limit("tangent", "DEG", "How far a border may turn on the seam.  [default: 0.1]")
 @_limit("near", "MM", "How near to the seam slivers are looked for.  [default: 0.5]")
-@_limit("thin", "MM", "What is thinner along the seam is a sliver.  [default: 0.02]")
-@_limit("double", "MM", "Lines this close are drawn twice.  [default: 0.005]")
+@_limit("thin", "MM", "What is thinner along the seam is a sliver.  [default: 0.02; drawings 0.05]")
+@_limit("double", "MM", "Lines this close are drawn twice, a fault in drawings too.  [default: 0.005]")
+@_limit(
+    "between",
+    "MM",
+    "Bare gaps between inks narrower than this are faults; without it none is.",
+    "between-inks",
+)
 @_limit("striping", "%", "Unevenness of columns or rows that is a fault; without it none is.")
 @click.option("--lenient", is_flag=True, help="Let pass what cannot be measured, such as blended colours.")
 @click.option("--pointers", metavar="DIR", help="Write NAME-check.svg with a mark at each fault.")
@@ -178,6 +186,7 @@ def check_command(
     from pathlib import Path
 
     from batik_vector.command.checks import Wishes, check_source, pointer_files, write_pointers
+    from batik_vector.command.reports import table
 
     _ready()
     with _report(as_json) as report:
@@ -193,6 +202,8 @@ def check_command(
                     report["recipes"].append(each.facts)
                     _tell_facts(each.facts)
                     report["exit"] = max(report["exit"], 0 if each.passed else 1)
+        if len(sources) > 1:
+            click.echo("\n".join(table(sources, report["recipes"])), err=True)
         for path in write_pointers(found, places) if places else ():
             click.echo(f'{path}  shows the faults in layer "check"', err=True)
 

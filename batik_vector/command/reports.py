@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 from batik_vector.units import format_mm
@@ -40,6 +40,42 @@ def told(facts: dict[str, Any]) -> list[str]:
         lines.append(f"{source}: NOT PASSED: no fault, but not all could be measured; --lenient lets it pass")
     else:
         lines.append(f"{source}: FAILED: {count} fault{'s' if count != 1 else ''}")
+    return lines
+
+
+def verdict(facts: dict[str, Any]) -> str:
+    """Return the verdict on a tile in one or two words."""
+    if facts["passed"]:
+        return "passed"
+    return "FAILED" if list(_faults(facts)) else "NOT PASSED"
+
+
+def table(sources: Sequence[str], found: Sequence[dict[str, Any]]) -> list[str]:
+    """Return a table of what was found of many sources, one line each, those that could not be read too.
+
+    Args:
+        sources: as they were given.
+        found: the facts of those that could be measured, in that order.
+    """
+    known = {facts["recipe"]: facts for facts in found}
+    rows = [("", "verdict", "faults", "remarks", "crossings", "apart mm", "symmetry")]
+    for source in dict.fromkeys(sources):
+        facts = known.get(source)
+        if facts is None:
+            rows.append((source, "error", "", "", "", "", ""))
+            continue
+        certificate, worst = facts["certificate"], facts["certificate"]["measures"]
+        faults, remarks = len(list(_faults(facts))), len(certificate["remarks"])
+        counts = f"{faults:,}", f"{remarks:,}", f"{worst['crossings']:,}", _small(worst["mismatch"])
+        rows.append((source, verdict(facts), *counts, certificate["symmetry"]["found"] or ""))
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    lines = []
+    for row in rows:
+        cells = (
+            text.rjust(width) if 2 <= i <= 5 else text.ljust(width)
+            for i, (text, width) in enumerate(zip(row, widths, strict=True))
+        )
+        lines.append("  ".join(cells).rstrip())
     return lines
 
 

@@ -19,8 +19,9 @@ from batik_vector.importing.pens import Pen, bodies
 from batik_vector.importing.walk import Shape
 from batik_vector.values import frozen
 
-REACH_MM = 0.05
-"""How near (mm) to an edge of the page what lies beside it is kept: files are rounded."""
+REACH = 0.025
+"""How near to an edge of the page, as a share of the page, what lies beside it is kept: pages are rounded to
+whole pixels, and what page would be right can be told from what lies near."""
 ON_EDGE_MM = 0.02
 """How near (mm) to an edge a line ends that ends on it."""
 
@@ -72,7 +73,7 @@ def _reaching(marks: Geometries, reach: NDArray[np.float64], sides: NDArray[np.f
     if not len(marks):
         return np.zeros(0, bool)
     bounds = shapely.bounds(marks)
-    reach = (reach + REACH_MM)[:, None]
+    reach = reach[:, None] + REACH * sides
     low, high = bounds[:, :2] - reach, bounds[:, 2:] + reach
     there = ((low <= sides) & (high >= 0)).all(axis=1)
     return np.asarray(there & ((low <= 0) | (high >= sides)).any(axis=1))

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 from click.testing import Result
 
-from batik_vector.certificate import Limits
+from batik_vector.command.checks import Wishes
 from batik_vector.command.cli import cli
 from batik_vector.compiling.compiler import compile_recipe
 from batik_vector.export import write_artwork
@@ -201,9 +201,10 @@ def test_limits_can_be_widened() -> None:
 def test_the_help_tells_the_true_defaults() -> None:
     words = " ".join(runner().invoke(cli, ["check", "--help"]).stdout.split())
     for name in ("position", "tangent", "near", "thin", "double"):
-        default = re.search(rf"--{name} [A-Z]+ [^\[]*\[default: ([\d.]+)\]", words)
+        default = re.search(rf"--{name} [A-Z]+ [^\[]*\[default: ([\d.]+)(?:; drawings ([\d.]+))?\]", words)
         assert default, name
-        assert float(default[1]) == getattr(Limits(), name)
+        assert float(default[1]) == getattr(Wishes().limits_for(foreign=False), name)
+        assert float(default[2] or default[1]) == getattr(Wishes().limits_for(foreign=True), name)
 
 
 def test_pointers_show_each_fault_in_a_drawing_of_its_own(desk: Path) -> None:

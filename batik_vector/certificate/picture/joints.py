@@ -195,9 +195,17 @@ class _Comparison:
                     thick = min(thick, (high - low) * math.sqrt(1 - min(abs(a), abs(b)) ** 2))
                 for b in ends[1][one].tolist():
                     closing = _slope(a) - _slope(b)
-                    if closing:
-                        thick = min(thick, (high - low) / (closing if closing > 0 else -2 * closing))
+                    if closing > 0:
+                        thick = min(thick, (high - low) / closing)
+                    elif closing < 0 and not self._goes_on((low + high) / 2):
+                        thick = min(thick, (high - low) / (-2 * closing))
         return thick
+
+    def _goes_on(self, place: float) -> bool:
+        """Whether any body goes on beyond the page there."""
+        return any(
+            ((side.beyond.low <= place) & (place <= side.beyond.high)).any() for side in (self.near, self.far)
+        )
 
     def _look(self, side: Shown, row: int) -> tuple[object, ...]:
         body = int(side.top[row])

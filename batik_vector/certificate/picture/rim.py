@@ -58,10 +58,15 @@ class Rim:
         xy, ring = shapely.get_coordinates(rings, return_index=True)
         self.xy, self.ring = xy * per_mm, ring
         self.body = owner[ring] if len(ring) else np.empty(0, np.intp)
-        cell = seams[0].frame.cell
-        for axis, side in ((0, cell.columns), (1, cell.rows)):
-            for value in (0, side):
-                self.xy[np.abs(self.xy[:, axis] - value) <= SNAP * per_mm, axis] = value
+        for seam in seams:
+            for value in (seam.near, seam.far):
+                self.xy[np.abs(self.xy[:, seam.axis] - value) <= SNAP * per_mm, seam.axis] = value
+
+    @staticmethod
+    def vertices(bodies: Bodies, per_mm: int) -> tuple[Floats, Indices]:
+        """Return the vertices of bodies in steps, shape (n, 2), and the number of each one's paint."""
+        xy, owner = shapely.get_coordinates(bodies.shapes, return_index=True)
+        return xy * per_mm, bodies.paint[owner]
 
     def spans(self, seam: Seam, far: bool, beyond: float = 0.0) -> Spans:
         """Return what bodies cover just inside an edge of the page, or that many steps ``beyond`` it.
