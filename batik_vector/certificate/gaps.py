@@ -37,7 +37,9 @@ def bare_gaps(tile: Drawing, breadth: float) -> list[SeamFault]:
             x, y = shapely.get_coordinates(shapely.point_on_surface(gap))[0]
             at = shapely.Point(x, y)
             size = float(sum(shapely.distance(each, at).min() for each in (here, there))) / frame.per_mm
-            length = float(shapely.length(gap)) / 2 / frame.per_mm
+            half = float(shapely.length(gap)) / 2
+            # The longer side of the rectangle that has its area and its outline.
+            length = (half + max(half * half - 4 * shapely.area(gap), 0.0) ** 0.5) / 2 / frame.per_mm
             words = f"a bare gap of {format_mm(size)} mm to ink {other} runs {format_mm(length)} mm"
             faults.append(SeamFault(Kind.BETWEEN, one, frame.mm(float(x), float(y)), words, size))
     return faults

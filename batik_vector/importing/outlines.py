@@ -57,38 +57,49 @@ def parse_path(text: str) -> Outline:
     """
     pen = _Pen()
     at = 0
+    letter, run = "", list[float]()
     for match in _COMMAND.finditer(text):
         if text[at : match.start()].strip():
             break
         at = match.end()
-        pen.command(match[1], _numbers(match[1], match[2]))
+        # One letter again and again, as some programs write it, is one command with many arguments.
+        if match[1] != letter or letter in "MmZz":
+            if letter:
+                pen.command(letter, _arguments(letter, run))
+            letter, run = match[1], []
+        run += _numbers(letter, match[2])
+    if letter:
+        pen.command(letter, _arguments(letter, run))
     if text[at:].strip():
         raise ValueError(f'path data "…{text[at : at + 40].strip()}" cannot be read')
     return pen.outline()
 
 
-def _numbers(letter: str, text: str) -> Points:
+def _numbers(letter: str, text: str) -> list[float]:
     command = letter.upper()
     if command == "A":
-        found, at = [], 0
+        found, at = list[float](), 0
         while match := _ARC.match(text, at):
-            found.append([float(each) for each in match.groups()])
+            found += map(float, match.groups())
             at = match.end()
-        if text[at:].strip(" \t\r\n,"):
-            raise ValueError(f'path data "{letter}{text[:40]}" cannot be read')
-        numbers = np.array(found, float).reshape(-1)
+        read = None if text[at:].strip(" \t\r\n,") else found
     else:
         read = numbers_in(text)
-        if read is None:
-            raise ValueError(f'path data "{letter}{text[:40]}" cannot be read')
-        numbers = np.array(read)
+    if read is None:
+        raise ValueError(f'path data "{letter}{text[:40]}" cannot be read')
     takes = _TAKES[command]
-    if (len(numbers) % takes if takes else len(numbers)) or (takes and not len(numbers)):
+    if (len(read) % takes if takes else len(read)) or (takes and not read):
         some = f"{takes} numbers, or a multiple" if takes else "no number"
-        raise ValueError(f'path command "{letter}" has {len(numbers)} numbers, expected {some}')
+        raise ValueError(f'path command "{letter}" has {len(read)} numbers, expected {some}')
+    return read
+
+
+def _arguments(letter: str, read: list[float]) -> Points:
+    """Return the numbers of a command, one row for each time that it is carried out."""
+    numbers = np.array(read, float)
     if not np.isfinite(numbers).all():
         raise ValueError(f'path command "{letter}" has a number that is not finite')
-    return numbers.reshape(-1, takes) if takes else numbers
+    return numbers.reshape(-1, _TAKES[letter.upper()] or 1)
 
 
 @dataclass

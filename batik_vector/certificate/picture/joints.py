@@ -54,6 +54,10 @@ CORNER = 1.0
 PARALLEL = np.tan(np.radians(0.2))
 
 
+DISPLACED = 0.05
+"""Share of a seam within which borders that do not meet are one, out of register: no step was drawn."""
+
+
 class Cause(enum.StrEnum):
     """Why two edges show different things."""
 
@@ -131,6 +135,7 @@ class _Comparison:
     ) -> None:
         self.bodies, self.seam, self.near, self.far = bodies, seam, near, far
         self.limit = limits.position * seam.frame.per_mm
+        self.displaced = limits.reach * seam.frame.per_mm
         self.tile = tile
         self._corners: Floats | None = None
 
@@ -244,7 +249,8 @@ class _Comparison:
             if cut[0] and cut[1]:
                 return Cause.ORDER, cut[0][0]
             body = (odd[0] or odd[1])[0][0]
-            return (Cause.MEANT if self._designed(low, high) else Cause.CUT), body
+            meant = self._designed(low, high) and not self._displaced(low, high)
+            return (Cause.MEANT if meant else Cause.CUT), body
         body = (lone[0] or lone[1])[0]
         mine, others = paints[paint[body]], (paints[i] for i in kinds[1 if lone[0] else 0])
         if mine.runs is False and any(o.runs is False and o.colour == mine.colour for o in others):
@@ -315,6 +321,16 @@ class _Comparison:
         if high - low >= length - ROUNDING:
             return True
         return all(self._own_corner(place) for place in (low, high))
+
+    def _displaced(self, low: float, high: float) -> bool:
+        """Whether a border of either edge ends the stretch, and they are so near that they ought to meet."""
+        if high - low > min(self.displaced, DISPLACED * self.seam.length):
+            return False
+        near, far = (
+            [len(_borders(side.spans, place, self.seam.length, self.limit)[0]) for place in (low, high)]
+            for side in (self.near, self.far)
+        )
+        return near in ([1, 0], [0, 1]) and far == near[::-1]
 
     def _own_corner(self, place: float) -> bool:
         """Whether a stretch ends at a place as no page would end it that cuts a mark off."""

@@ -1,0 +1,103 @@
+"""Small tiles as they come from the field, and the verdict that is right for each."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from batik_vector.command.cli import cli
+from tests.calling import runner
+
+CASES = Path(__file__).with_name("cases")
+
+PASSED = {
+    "c01-relative-closed": "",
+    "c02-checkerboard": "passed; ink ends along the",
+    "c02b-stripes-across": "passed; ink ends along the upper edge at x = 0 to 80 (exact there; welding",
+    "c03-tangent-dots": "",
+    "c04-narrow-stripe": "passed; ink ends along the left edge",
+    "c05-pattern-element": "tile 6.35 × 9.525 mm",
+    "c07-figma-frame": "symmetry pmm",
+    "c09-clip-circle": "",
+    "c16-traced-gap": "",
+    "c17-double-in-pieces": "mm of a line are drawn twice",
+    "c19-invisible": "",
+    "c21-two-decimals": "--position 0.0027",
+    "c26-inkscape-90dpi": "",
+}
+FAILED = {
+    "c10-order-at-seam": ["what lies on top differs"],
+    "c12-opacity-at-seam": ["two tints meet", "35 %", "100 %"],
+    "c13-half-line-at-edge": ["2 of the 4 mm of a line's breadth are cut off", "do not come back"],
+    "c15-edge-hair": ["a strip of ink 0.021 mm wide"],
+    "c20-hexagon-rounded-page": ["13.748 mm (51.96 px) would be right"],
+    "c22-half-drop-unit": ['--repeat "half-drop"'],
+}
+
+
+def checked(name: str, *options: str) -> tuple[int, str]:
+    result = runner().invoke(cli, ["check", str(CASES / f"{name}.svg"), *options])
+    return result.exit_code, result.stderr
+
+
+def facts_of(name: str, *options: str) -> dict[str, Any]:
+    result = runner().invoke(cli, ["check", str(CASES / f"{name}.svg"), "--json", *options])
+    facts: dict[str, Any] = json.loads(result.stdout)["recipes"][0]
+    return facts
+
+
+def test_every_case_has_its_verdict() -> None:
+    assert {path.stem for path in CASES.glob("*.svg")} == {*PASSED, *FAILED, "c18-symbol-overflow"}
+
+
+@pytest.mark.parametrize("name", PASSED)
+def test_what_is_seamless_passes(name: str) -> None:
+    code, told = checked(name)
+    assert code == 0, told
+    assert ": passed" in told
+    assert PASSED[name] in told
+
+
+@pytest.mark.parametrize("name", FAILED)
+def test_what_is_not_fails_and_says_why(name: str) -> None:
+    code, told = checked(name)
+    assert code == 1
+    assert "FAILED" in told
+    assert all(words in told for words in FAILED[name]), told
+
+
+def test_borders_along_the_edges_have_their_true_lengths() -> None:
+    along = facts_of("c02-checkerboard")["certificate"]["ends_along_edges"]
+    assert {each["edge"] for each in along} == {"left", "right", "lower", "upper"}
+    assert {each["to_mm"] - each["from_mm"] for each in along} == {40.0}
+
+
+def test_a_case_fails_where_it_is_wrong() -> None:
+    ((x, y),) = (each["where_mm"] for each in facts_of("c10-order-at-seam")["certificate"]["faults"])
+    assert x in (0, 100)
+    assert 45 <= y <= 50
+
+
+def test_gaps_and_lines_between_inks_are_told_on_request() -> None:
+    code, told = checked("c16-traced-gap", "--between-inks", "0.2")
+    assert code == 1
+    assert "a bare gap of 0.1 mm to ink #1d2f5f runs 60 mm" in told
+    assert checked("c16-traced-gap", "--between-inks", "0.09")[0] == 0
+    code, told = checked("c17-double-in-pieces", "--between-inks", "0.1")
+    assert code == 1
+    assert "40 mm of a line are drawn in ink #cc0000 0.3 mm too" in told
+    assert told.count("are drawn twice") == 2
+
+
+def test_many_files_end_in_a_table() -> None:
+    files = [str(CASES / f"{name}.svg") for name in ("c02-checkerboard", "c22-half-drop-unit", "none")]
+    result = runner().invoke(cli, ["check", *files])
+    assert result.exit_code == 2
+    *_, head, first, second, third = result.stderr.splitlines()
+    assert head.split()[:3] == ["verdict", "faults", "remarks"]
+    assert first.split()[:2] == [files[0], "passed"]
+    assert second.split()[:3] == [files[1], "FAILED", "2"]
+    assert third.split() == [files[2], "error"]
