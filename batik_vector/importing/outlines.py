@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import compress
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,6 +42,11 @@ class Outline:
 EMPTY = Outline(np.empty((0, 2)), np.empty(0, np.uint8), np.empty(0, bool))
 
 _COMMAND = re.compile(r"([MmZzLlHhVvCcSsQqTtAa])([^MmZzLlHhVvCcSsQqTtAa]*)")
+_TOKEN = re.compile(rf"{NUMBER}|[^\s,]")
+_LETTERS = frozenset("MmZzLlHhVvCcSsQqTt")
+_MOVES = [ord(letter) for letter in "MmZz"]
+LONG_TEXT = 400
+"""Characters from which path data are read at once."""
 _ARC = re.compile(
     r"[\s,]*+({0})[\s,]*+({0})[\s,]*+({0})[\s,]*+([01])[\s,]*+([01])[\s,]*+({0})[\s,]*+({0})".replace(
         "{0}", NUMBER
@@ -56,23 +62,59 @@ def parse_path(text: str) -> Outline:
         ValueError: where the data break off or are none.
     """
     pen = _Pen()
+    for letter, numbers in _tokens(text) or _commands(text):
+        pen.command(letter, numbers)
+    return pen.outline()
+
+
+def _tokens(text: str) -> list[tuple[str, Points]] | None:
+    """Return the commands of long, sound path data without arcs, read at once; None of any other."""
+    if len(text) < LONG_TEXT or "a" in text or "A" in text:
+        return None
+    tokens = _TOKEN.findall(text)
+    letters = np.array([token in _LETTERS for token in tokens], bool)
+    places = np.flatnonzero(letters)
+    if not len(places) or places[0] != 0:
+        return None
+    try:
+        numbers = np.array(list(map(float, compress(tokens, (~letters).tolist()))))
+    except ValueError:
+        return None
+    names = [tokens[i] for i in places.tolist()]
+    takes = np.array([_TAKES[name.upper()] for name in names])
+    counts = np.diff(np.append(places, len(tokens))) - 1
+    sound = np.where(takes > 0, (counts > 0) & (counts % np.maximum(takes, 1) == 0), counts == 0)
+    if not (sound.all() and np.isfinite(numbers).all()):
+        return None
+    code = np.array([ord(name) for name in names])
+    # One letter again and again, as some programs write it, is one command with many arguments.
+    new = np.append(True, (code[1:] != code[:-1]) | np.isin(code[1:], _MOVES))
+    firsts = np.flatnonzero(new)
+    ends = np.cumsum(counts)[np.append(firsts[1:], len(names)) - 1]
+    begins = np.append(0, ends[:-1])
+    return [
+        (names[i], numbers[low:high].reshape(-1, max(int(takes[i]), 1)))
+        for i, low, high in zip(firsts.tolist(), begins.tolist(), ends.tolist(), strict=True)
+    ]
+
+
+def _commands(text: str) -> Iterator[tuple[str, Points]]:
+    """Yield the commands of path data, and fail where they break off."""
     at = 0
     letter, run = "", list[float]()
     for match in _COMMAND.finditer(text):
         if text[at : match.start()].strip():
             break
         at = match.end()
-        # One letter again and again, as some programs write it, is one command with many arguments.
         if match[1] != letter or letter in "MmZz":
             if letter:
-                pen.command(letter, _arguments(letter, run))
+                yield letter, _arguments(letter, run)
             letter, run = match[1], []
         run += _numbers(letter, match[2])
     if letter:
-        pen.command(letter, _arguments(letter, run))
+        yield letter, _arguments(letter, run)
     if text[at:].strip():
         raise ValueError(f'path data "…{text[at : at + 40].strip()}" cannot be read')
-    return pen.outline()
 
 
 def _numbers(letter: str, text: str) -> list[float]:
