@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from batik_vector.artwork import Artwork, Cell, Geometries, Ink, Layer
 from batik_vector.certificate.report import Place
 from batik_vector.errors import GeometryError
+from batik_vector.geometry.regions import without_repeats
 from batik_vector.tiling.torus.torus import Steps, Window, clip_areas, polygons_of, split_at
 from batik_vector.tiling.welding.weld import meeting, welded
 from batik_vector.units import STEPS_PER_MM, on_grid
@@ -256,7 +257,7 @@ def _in_steps(marks: Geometries, frame: Frame) -> Geometries:
         return xy
 
     steps = np.asarray(shapely.transform(shapely.force_2d(marks), moved), dtype=object)
-    return steps if frame.exact else np.asarray(shapely.remove_repeated_points(steps), dtype=object)
+    return steps if frame.exact else without_repeats(steps)
 
 
 def ring_edges(areas: Geometries) -> Edges:

@@ -12,6 +12,9 @@ from batik_vector.geometry.regions import FillRule, oriented, settle
 Points = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
+SLIVER_MM = 1e-6
+"""Mean breadth below which an area is what rounding left between two edges, and nothing drawn."""
+
 
 def filled(
     points: Points, offsets: Indices, shape: Indices, evenodd: NDArray[np.bool_]
@@ -44,7 +47,8 @@ def filled(
         owners.append(np.full(len(found), number, np.intp))
     areas, owner = np.concatenate(parts), np.concatenate(owners)
     order = np.argsort(owner, kind="stable")
-    solid = order[shapely.area(areas[order]) > 0]
+    area, length = shapely.area(areas[order]), shapely.length(areas[order])
+    solid = order[2 * area > SLIVER_MM * length]
     return areas[solid], owner[solid]
 
 

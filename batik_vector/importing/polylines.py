@@ -66,6 +66,7 @@ def flattened(outline: Outline, width: float, height: float, tolerance: float) -
         TooLargeError: where the curves would come to more than ``MAX_CURVED`` points.
     """
     points = snapped(outline.points, width, height)
+    _meet(points, outline.kinds)
     end = np.flatnonzero(outline.kinds == CURVE)
     control = points[end[:, None] + np.array([-3, -2, -1, 0])]
     plain = np.flatnonzero((outline.kinds == MOVE) | (outline.kinds == LINE))
@@ -87,6 +88,17 @@ def snapped(points: Points, width: float, height: float) -> Points:
         for edge in (0.0, far):
             points[np.abs(points[:, axis] - edge) <= SNAP_MM, axis] = edge
     return points
+
+
+def _meet(points: Points, kinds: NDArray[np.uint8]) -> None:
+    """Let subpaths that all but come back to where they began end there, in place.
+
+    Relative steps miss it by the last bits of their sums, which a fill would take for a crossing.
+    """
+    begin = np.flatnonzero(kinds == MOVE)
+    last = np.append(begin[1:], len(kinds)) - 1
+    back = (np.abs(points[last] - points[begin]) <= SNAP_MM).all(axis=1)
+    points[last[back]] = points[begin[back]]
 
 
 def _divided(
