@@ -42,3 +42,17 @@ def test_a_ring_that_all_but_comes_back_encloses_what_it_would(rule: FillRule, s
     ring[3, 0] = back
     found = settle([ring], rule)
     assert shapely.area(found).sum() == pytest.approx(5.2 * 9.6 / 2 * size**2, rel=1e-9)
+
+
+def test_a_curve_there_and_back_by_a_straight_line_may_enclose_next_to_nothing() -> None:
+    """Rounding leaves faces thinner than a float's last bit, which overlap."""
+    ring = [
+        [0.06997829030274684, 1.983193125015159],
+        [0.08869144713447649, 1.978721508918875],
+        [0.14483091762966546, 1.965306660630021],
+        [0.2383967017883137, 1.9429485801485986],
+        [0.06997829030274685, 1.983193125015159],
+        [0.06997829030274684, 1.983193125015159],
+    ]
+    found = settle([np.array(ring)], FillRule.EVENODD)
+    assert shapely.area(found).sum() == pytest.approx(0.0, abs=1e-12)
