@@ -47,9 +47,13 @@ def filled(
         owners.append(np.full(len(found), number, np.intp))
     areas, owner = np.concatenate(parts), np.concatenate(owners)
     order = np.argsort(owner, kind="stable")
-    area, length = shapely.area(areas[order]), shapely.length(areas[order])
-    solid = order[2 * area > SLIVER_MM * length]
-    return areas[solid], owner[solid]
+    order = order[solid(areas[order])]
+    return areas[order], owner[order]
+
+
+def solid(areas: Geometries) -> NDArray[np.bool_]:
+    """Return which areas (mm) are more than what rounding left."""
+    return np.asarray(2 * shapely.area(areas) > SLIVER_MM * shapely.length(areas))
 
 
 def _closed(points: Points, offsets: Indices) -> tuple[Points, Indices]:

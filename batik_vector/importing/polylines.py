@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from batik_vector.errors import TooLargeError
-from batik_vector.importing.outlines import CURVE, LINE, MOVE, Outline
+from batik_vector.importing.outlines import CONTROL, CURVE, LINE, MOVE, Outline
 from batik_vector.units import STEPS_PER_MM
 from batik_vector.values import frozen
 
@@ -81,6 +81,20 @@ def flattened(outline: Outline, width: float, height: float, tolerance: float) -
     order = np.lexsort((np.concatenate([np.ones(len(plain)), at]), node))
     begins = np.flatnonzero((outline.kinds == MOVE)[node[order]])
     return Lines(places[order], np.append(begins, len(order)).astype(np.intp))
+
+
+def bounds_of(outline: Outline) -> tuple[float, float, float, float]:
+    """Return how far an outline reaches: left, lower, right and upper bound in its own units."""
+    end = np.flatnonzero(outline.kinds == CURVE)
+    control = outline.points[end[:, None] + np.array([-3, -2, -1, 0])]
+    plain = outline.points[outline.kinds != CONTROL]
+    reached = []
+    for axis in (0, 1):
+        curved = control[:, :, axis]
+        turns = _bernstein(curved[:, None, :], _turns(curved))
+        reached.append(np.concatenate([plain[:, axis], turns.ravel()]))
+    x, y = reached
+    return float(x.min()), float(y.min()), float(x.max()), float(y.max())
 
 
 def snapped(points: Points, width: float, height: float) -> Points:

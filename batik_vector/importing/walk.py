@@ -1,17 +1,19 @@
 """The walk over a drawing's tree: what is painted, in painting order, as outlines on the page.
 
 Groups, nested pages, ``use`` and symbols are followed, transforms and styles carried down. What paints
-without being an outline (pictures, text, patterns, clips, masks, filters) is refused by name and line.
+without being an outline (pictures, text, masks, filters) is refused by name and line.
 """
 
 from __future__ import annotations
 
+import contextlib
 import re
 import xml.etree.ElementTree as ET
 from dataclasses import replace
 
 import numpy as np
 
+from batik_vector.importing.clip_paths import MAX_REACH_MM, Clip, ClipPaths, Part, Space, box_of
 from batik_vector.importing.document import (
     INKSCAPE,
     MAX_DEPTH,
@@ -23,11 +25,11 @@ from batik_vector.importing.document import (
     reference,
 )
 from batik_vector.importing.gradients import Gradient
-from batik_vector.importing.matrix import IDENTITY, Matrix, moved, spread, times
+from batik_vector.importing.matrix import IDENTITY, Matrix, spread, times
 from batik_vector.importing.origins import transform_of
 from batik_vector.importing.outlines import Outline, polyline
-from batik_vector.importing.page import Page, fitted, parse_px, view_box
-from batik_vector.importing.paint import EXPAND, look_of, paint_of, url_of
+from batik_vector.importing.page import Box, Page, fitted, parse_px, view_box
+from batik_vector.importing.paint import EXPAND, look_of, paint_of
 from batik_vector.importing.painting import Paint
 from batik_vector.importing.pens import Pen, pen_of
 from batik_vector.importing.shapes import SHAPES, outline_of
@@ -39,8 +41,6 @@ MAX_POINTS = 20_000_000
 """Shapes and points a drawing may have once every ``use`` in it is followed."""
 MAX_WORK = 1_000_000
 """Elements to which ``use`` may lead, painted or not, long attributes counted as several."""
-MAX_REACH_MM = 1e6
-"""How far from the page a shape may reach; further off, products of whole µm leave 64 bits."""
 FRAME_SLACK = 1e-3
 """Parts of a side by which a clip may fall short of what it holds and still cut nothing away."""
 
@@ -62,7 +62,8 @@ class Shape:
 
     ``fill`` and ``stroke`` are ``#rrggbb``, or nothing. ``label`` is the name of the layer it lies in,
     ``name`` its own. ``width`` is the stroke's, in mm. ``looks`` are the paints of fill and stroke as they
-    show on a screen, None where that cannot be told, and ``pen`` is how a stroke's body is drawn.
+    show on a screen, None where that cannot be told, and ``pen`` is how a stroke's body is drawn. Of all
+    that, what lies in every one of ``clips`` shows.
     """
 
     outline: Outline
@@ -74,6 +75,7 @@ class Shape:
     width: float
     looks: tuple[Paint | None, Paint | None]
     pen: Pen
+    clips: tuple[Clip, ...] = ()
 
     def under(self, matrix: Matrix) -> Shape:
         """Return the shape with paints for a page that is moved by an affine map, its outline left alone."""
@@ -93,7 +95,7 @@ class _Here:
     size: tuple[float, float] = (0.0, 0.0)
     used: tuple[ET.Element, ...] = ()
     depth: int = 0
-    frames: tuple[tuple[ET.Element, Outline, Matrix], ...] = ()
+    clips: tuple[Clip, ...] = ()
     opacity: float = 1.0
 
 
@@ -105,6 +107,8 @@ class Walker:
         self.page = page
         self.shapes: list[Shape] = []
         self._styles = Styles(document)
+        self._clip_paths = ClipPaths(document, self._styles, self._spend)
+        self._measured: list[Outline] | None = None
         self._points = 0
         self._work = 0
 
@@ -118,7 +122,8 @@ class Walker:
         style = self._styles.of(root, INITIAL)
         here = _Here(self.page.matrix, style, size=self.page.size, opacity=_opacity(style))
         if self._painted(root, style):
-            self._refused_effects(root, style, here)
+            self._refused_effects(root, style)
+            here = replace(here, clips=self._clips(root, style, here))
             for child in children(root):
                 self._visit(child, here, top=True)
         self.document.settle()
@@ -143,11 +148,18 @@ class Walker:
         inside = replace(here, matrix=matrix, style=style, depth=here.depth + 1, opacity=opacity)
         if inside.depth > MAX_DEPTH:
             raise self.document.fault(f"nested deeper than {MAX_DEPTH} elements", element)
-        self._refused_effects(element, style, inside)
+        self._refused_effects(element, style)
+        if self._measured is None:
+            inside = replace(inside, clips=inside.clips + self._clips(element, style, inside))
+        self._enter(element, inside, top)
+
+    def _enter(self, element: ET.Element, inside: _Here, top: bool) -> None:
+        """Draw an element whose own transform, style and clips are known."""
+        kind = local(element)
         if kind in SHAPES:
             self._draw(element, inside)
         elif kind in ("g", "a"):
-            inside = replace(inside, label=_label(element, here.label, top))
+            inside = replace(inside, label=_label(element, inside.label, top))
             for child in children(element):
                 self._visit(child, inside)
         elif kind == "switch":
@@ -200,14 +212,15 @@ class Walker:
         box = view_box(self.document, element)
         inner = fitted(box, width, height, element.get("preserveAspectRatio", ""))
         outer = times(here.matrix, (1.0, 0.0, 0.0, 1.0, x, y))
-        frames = here.frames
+        clips = here.clips
         if here.style.get("overflow", "hidden") not in ("visible", "auto"):
-            frames += ((element, _box(0.0, 0.0, width, height), outer),)
+            frame = Clip(_box(0.0, 0.0, width, height).moved(outer), (Part(1),))
+            clips += () if self._holds_page(frame) else (frame,)
         inside = replace(
             here,
             matrix=times(outer, inner),
             size=(box[2], box[3]) if box else (width, height),
-            frames=frames,
+            clips=clips,
         )
         for child in children(element):
             self._visit(child, inside)
@@ -232,13 +245,18 @@ class Walker:
                 )
                 self._refuse_styled_geometry(found, "symbol", style)
                 self._spend(found)
-                self._refused_effects(found, style, inside)
+                self._refused_effects(found, style)
+                if self._measured is None:
+                    inside = replace(inside, clips=inside.clips + self._clips(found, style, inside))
                 self._viewport(found, inside, (element.get("width", ""), element.get("height", "")))
         else:
             self._visit(found, here)
 
     def _draw(self, element: ET.Element, here: _Here) -> None:
         style = here.style
+        if self._measured is not None:
+            self._measure(element, here)
+            return
         fill, stroke = (paint_of(self.document, element, style, what) for what in ("fill", "stroke"))
         width = _px(style["stroke-width"], 1.0, float(np.hypot(*here.size)) / 2**0.5)
         stroke = stroke if width > 0 else ""
@@ -256,14 +274,20 @@ class Walker:
         if not (np.abs(outline.points) <= MAX_REACH_MM).all():
             self.document.refuse(element, f"reaches further than {MAX_REACH_MM / 1e6:g} km from the page")
             return
-        self._within_frames(outline, here)
         if stroke:
             self._stroke_notes(element, style, here)
         breadth = self._breadth(style, width, here)
         names = here.label, element.get("id", "")
         looks = self._look("fill", fill, drawn, here), self._look("stroke", stroke, drawn, here)
         pen = pen_of(style, here.size, breadth / width if width else 1.0)
-        self.shapes.append(Shape(outline, *names, fill, style["fill-rule"], stroke, breadth, looks, pen))
+        rule = style["fill-rule"]
+        self.shapes.append(Shape(outline, *names, fill, rule, stroke, breadth, looks, pen, here.clips))
+
+    def _measure(self, element: ET.Element, here: _Here) -> None:
+        self._spend(element)
+        if self._measured is not None:
+            with contextlib.suppress(ValueError):
+                self._measured.append(outline_of(element, here.size).moved(here.matrix))
 
     def _look(self, what: str, ink: str, drawn: Outline, here: _Here) -> Paint | None:
         """Return how a fill or a stroke shows, and take note of what cannot be told."""
@@ -296,43 +320,30 @@ class Walker:
         if any(style[name] != "none" for name in ("marker-start", "marker-mid", "marker-end")):
             self.document.refuse(element, f"has markers at its ends; {EXPAND}")
 
-    def _refused_effects(self, element: ET.Element, style: Style, here: _Here) -> None:
+    def _refused_effects(self, element: ET.Element, style: Style) -> None:
         for name in ("mask", "filter"):
             if style.get(name, "none") not in ("none", ""):
                 self.document.refuse(element, f"has a {name}; {EXPAND}")
         if style.get("mix-blend-mode", "normal") != "normal":
             self.document.leave_open("how colours that are blended (mix-blend-mode) show at the seam")
-        clip = url_of(style.get("clip-path", "none"))
-        if clip is None:
-            if style.get("clip-path", "none") not in ("none", ""):
-                self.document.refuse(element, f"is clipped; {EXPAND}")
-        elif not self._clips_nothing(clip[0], here):
-            self.document.refuse(element, f"is clipped; {EXPAND}")
 
-    def _clips_nothing(self, target: str, here: _Here) -> bool:
+    def _clips(self, element: ET.Element, style: Style, here: _Here) -> tuple[Clip, ...]:
+        """Return the clips of an element itself; mere frames round the page are left out."""
+        space = Space(here.matrix, here.size, lambda: self._box(element, here))
+        found = self._clip_paths.of(element, style, space)
+        return tuple(clip for clip in found if not self._holds_page(clip))
+
+    def _holds_page(self, clip: Clip) -> bool:
         """Whether a clip is a mere frame round the page, as Figma and Illustrator set one about all."""
-        clip = self.document.by_id.get(target[1:]) if target.startswith("#") else None
-        if clip is None or clip.get("clipPathUnits") == "objectBoundingBox" or clip.get("clip-path"):
-            return clip is None
-        inner = [child for child in children(clip) if local(child) not in _PASSED]
-        if len(inner) != 1 or local(inner[0]) not in ("rect", "path", "polygon"):
-            return False
-        self._spend(inner[0])
-        matrix = times(here.matrix, self._transform(clip, clip.attrib, here))
-        matrix = times(matrix, self._transform(inner[0], inner[0].attrib, here))
-        try:
-            return _covers(outline_of(inner[0], here.size).moved(matrix), self.page.width, self.page.height)
-        except ValueError:
-            return False
+        plain = len(clip.parts) == 1 and not clip.parts[0].within and clip.parts[0].subpaths == 1
+        return plain and _covers(clip.outline, self.page.width, self.page.height)
 
-    def _within_frames(self, outline: Outline, here: _Here) -> None:
-        """Refuse what a nested page or a symbol would cut off at its frame."""
-        low, high = outline.points.min(axis=0), outline.points.max(axis=0)
-        for element, frame, matrix in here.frames:
-            corners = moved(frame.points, matrix)
-            slack = FRAME_SLACK * np.ptp(corners, axis=0)
-            if (low < corners.min(axis=0) - slack).any() or (high > corners.max(axis=0) + slack).any():
-                self.document.refuse(element, f"cuts off what reaches beyond its frame; {EXPAND}")
+    def _box(self, element: ET.Element, here: _Here) -> Box | None:
+        """Return the box of what an element draws, painted or not, in its own units."""
+        kept, self._measured = self._measured, []
+        self._enter(element, replace(here, matrix=IDENTITY, used=(*here.used, element)), False)
+        found, self._measured = self._measured, kept
+        return box_of(found)
 
 
 def _under(look: Paint, matrix: Matrix) -> Paint:
