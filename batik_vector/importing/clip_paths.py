@@ -119,14 +119,15 @@ class ClipPaths:
             self.document.refuse(element, "text hangs on a font; convert it to outlines first")
             return
         matrix = times(space.matrix, self._transform(element, style, space.size))
+        if kind == "use":
+            x, y = (parse_px(element.get(name), space.size[i]) or 0.0 for i, name in enumerate("xy"))
+            matrix = times(matrix, (1.0, 0.0, 0.0, 1.0, x, y))
         here = Space(matrix, space.size, lambda: _box_of(element, space.size))
         within += self.of(element, style, here, used)
         if kind == "use":
             target = self.document.by_id.get(reference(element)[1:])
             if target is not None and local(target) != "use":
-                x, y = (parse_px(element.get(name), space.size[i]) or 0.0 for i, name in enumerate("xy"))
-                there = Space(times(matrix, (1.0, 0.0, 0.0, 1.0, x, y)), space.size, space.box)
-                self._add(target, style, there, used, found, within)
+                self._add(target, style, here, used, found, within)
         elif style["visibility"] == "visible":
             outline = self._outline(element, here)
             found[0].append(outline)

@@ -22,10 +22,11 @@ from batik_vector.importing.document import Document, DrawingError, children, lo
 from batik_vector.importing.inks import Marks, layers_of, painted
 from batik_vector.importing.matrix import Matrix
 from batik_vector.importing.outlines import CURVE, Outline, joined
-from batik_vector.importing.page import Page, page_of
+from batik_vector.importing.page import Page
 from batik_vector.importing.painting import Bodies
 from batik_vector.importing.polylines import Lines, flattened
-from batik_vector.importing.walk import Shape, Walker
+from batik_vector.importing.tilings import drawn
+from batik_vector.importing.walk import Shape
 from batik_vector.tiling.symmetry.repeats import parse_repeat
 from batik_vector.units import STEPS_PER_MM, format_mm
 from batik_vector.values import frozen
@@ -93,9 +94,8 @@ def read_svg(
     data, name = load(source)
     document = parse(data, name)
     ours = NAMESPACE in data
-    page = page_of(document)
+    page, shapes = drawn(document)
     cell = _cell(document, page, drop, axis, bleed)
-    shapes = Walker(document, page).walk()
     if not shapes:
         raise document.fault("nothing is drawn: no shape has a fill or a stroke that shows")
     try:
