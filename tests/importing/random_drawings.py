@@ -21,7 +21,7 @@ def transforms(draw: st.DrawFn, even: bool = False) -> str:
         "rotate": f"{draw(st.integers(-180, 180))} 50 50",
         "scale": f"{draw(st.sampled_from([0.5, 0.8, 1.3, -1]))}",
         "skewX": f"{draw(st.integers(-30, 30))}",
-        "matrix": f"{1 + draw(small)} {draw(small)} {draw(small)} {1 + draw(small)} {draw(whole)} {draw(whole)}",
+        "matrix": f"{1 + draw(small)} {draw(small)} {draw(small)} {1 + draw(small)} {draw(whole)} 9",
     }
     return f' transform="{kind}({values[kind]})"' if kind else ""
 
