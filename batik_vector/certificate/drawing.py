@@ -18,6 +18,8 @@ from numpy.typing import NDArray
 from batik_vector.artwork import Artwork, Cell, Geometries, Ink, Layer
 from batik_vector.certificate.report import Place
 from batik_vector.errors import GeometryError
+from batik_vector.geometry.edge_snap import snapped
+from batik_vector.geometry.regions import without_repeats
 from batik_vector.tiling.torus.torus import Steps, Window, clip_areas, polygons_of, split_at
 from batik_vector.tiling.welding.weld import meeting, welded
 from batik_vector.units import STEPS_PER_MM, on_grid
@@ -244,19 +246,16 @@ def _cropped(areas: Geometries, frame: Frame) -> Geometries:
 
 def _in_steps(marks: Geometries, frame: Frame) -> Geometries:
     """Return marks in whole steps, what all but lies on an edge of the page on it."""
-    far = frame.cell.columns, frame.cell.rows
-    snap = 0 if frame.exact else SNAP * frame.per_mm
-
-    def moved(xy: NDArray[np.float64]) -> NDArray[np.float64]:
-        xy = np.rint(xy * frame.per_mm)
-        for axis in (0, 1) if snap else ():
-            for value in (0, far[axis]):
-                near = np.abs(xy[:, axis] - value) <= snap
-                xy[near, axis] = value
-        return xy
-
-    steps = np.asarray(shapely.transform(shapely.force_2d(marks), moved), dtype=object)
-    return steps if frame.exact else np.asarray(shapely.remove_repeated_points(steps), dtype=object)
+    marks = np.array(shapely.force_2d(marks), dtype=object)
+    xy = np.rint(shapely.get_coordinates(marks) * frame.per_mm)
+    if frame.exact:
+        return np.asarray(shapely.set_coordinates(marks, xy), dtype=object)
+    parts = shapely.get_parts(marks)
+    areas = shapely.get_type_id(parts) == shapely.GeometryType.POLYGON
+    chains = shapely.get_rings(parts) if areas.all() else parts
+    offsets = np.append(0, np.cumsum(shapely.get_num_coordinates(chains)))
+    xy = snapped(xy, offsets, (frame.cell.columns, frame.cell.rows), SNAP * frame.per_mm)
+    return without_repeats(np.asarray(shapely.set_coordinates(marks, xy), dtype=object))
 
 
 def ring_edges(areas: Geometries) -> Edges:

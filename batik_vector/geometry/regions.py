@@ -1,4 +1,4 @@
-"""From rings that may cross themselves to valid polygons, by a fill rule."""
+"""From rings that may cross themselves to valid polygons, by a fill rule; and what collapses on the way."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from batik_vector.geometry.sampling import Geometries, Indices, Points
 
@@ -43,11 +44,59 @@ def settle(rings: Sequence[Points], rule: FillRule = FillRule.NONZERO) -> Geomet
     else:
         winding = winding_numbers(rings, shapely.get_coordinates(shapely.point_on_surface(faces)))
         inside = faces[winding != 0] if rule == FillRule.NONZERO else faces[winding % 2 == 1]
-    # Faces share their edges to the bit.
-    merged = shapely.get_parts(shapely.coverage_union_all(inside))
+    merged = _merged(inside)
     if rule == FillRule.OUTLINE:
         merged = shapely.get_parts(shapely.union_all(shapely.polygons(shapely.get_exterior_ring(merged))))
     return oriented(merged)
+
+
+def _merged(faces: Geometries) -> Geometries:
+    """Return faces that share their edges to the bit as polygons without those edges."""
+    try:
+        return np.asarray(shapely.get_parts(shapely.coverage_union_all(faces)), dtype=object)
+    except shapely.errors.GEOSException:
+        # A face thinner than a float's last bit makes a ring of two points; the overlay takes it for nothing.
+        return polygonal(shapely.union_all(faces))
+
+
+def polygonal(marks: Geometries | shapely.Geometry) -> Geometries:
+    """Return the polygons among the parts of geometries, however nested; empty ones are left out."""
+    parts = shapely.get_parts(shapely.get_parts(marks))
+    good = (shapely.get_type_id(parts) == shapely.GeometryType.POLYGON) & ~shapely.is_empty(parts)
+    return np.asarray(parts[good], dtype=object)
+
+
+def without_repeats(marks: Geometries) -> Geometries:
+    """Return polygons and lines without points that repeat the one before.
+
+    A hole that lies in a single point is gone; a polygon whose outer ring does is an empty one.
+    """
+    marks = np.array(marks, dtype=object)
+    parts, whose = shapely.get_parts(marks, return_index=True)
+    rings, owner = shapely.get_rings(parts, return_index=True)
+    # Of a ring in one point GEOS can make none.
+    for number in np.unique(whose[owner[~_spread(rings)]]).tolist():
+        marks[number] = _uncollapsed(marks[number])
+    return np.asarray(shapely.remove_repeated_points(marks), dtype=object)
+
+
+def _uncollapsed(mark: shapely.Geometry) -> shapely.Geometry:
+    """Return a polygon, or several, without the rings that lie in a single point."""
+    kept = []
+    for part in shapely.get_parts(mark):
+        rings = shapely.get_rings(part)
+        spread = _spread(rings)
+        if spread[0]:
+            kept.append(shapely.Polygon(rings[0], rings[1:][spread[1:]]))
+    if isinstance(mark, shapely.Polygon):
+        return kept[0] if kept else shapely.Polygon()
+    return shapely.MultiPolygon(kept)
+
+
+def _spread(rings: Geometries) -> NDArray[np.bool_]:
+    """Return which rings have two points that differ."""
+    bounds = shapely.bounds(rings).reshape(-1, 4)
+    return np.asarray((bounds[:, :2] != bounds[:, 2:]).any(axis=1))
 
 
 def oriented(polygons: Geometries) -> Geometries:

@@ -12,6 +12,9 @@ from batik_vector.geometry.regions import FillRule, oriented, settle
 Points = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
+SLIVER_MM = 1e-6
+"""Mean breadth below which an area is what rounding left between two edges, and nothing drawn."""
+
 
 def filled(
     points: Points, offsets: Indices, shape: Indices, evenodd: NDArray[np.bool_]
@@ -44,8 +47,13 @@ def filled(
         owners.append(np.full(len(found), number, np.intp))
     areas, owner = np.concatenate(parts), np.concatenate(owners)
     order = np.argsort(owner, kind="stable")
-    solid = order[shapely.area(areas[order]) > 0]
-    return areas[solid], owner[solid]
+    order = order[solid(areas[order])]
+    return areas[order], owner[order]
+
+
+def solid(areas: Geometries) -> NDArray[np.bool_]:
+    """Return which areas (mm) are more than what rounding left."""
+    return np.asarray(2 * shapely.area(areas) > SLIVER_MM * shapely.length(areas))
 
 
 def _closed(points: Points, offsets: Indices) -> tuple[Points, Indices]:

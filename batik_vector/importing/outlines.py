@@ -327,6 +327,11 @@ def polyline(points: Points, closed: bool) -> Outline:
     return Outline(points, kinds, np.array([closed]))
 
 
+def box(x: float, y: float, width: float, height: float) -> Outline:
+    """Return an upright rectangle."""
+    return polyline(np.array([[x, y], [x + width, y], [x + width, y + height], [x, y + height]]), True)
+
+
 def ellipse(cx: float, cy: float, rx: float, ry: float) -> Outline:
     """Return an ellipse, its four outermost points exact."""
     return _drawn(
@@ -340,9 +345,9 @@ def ellipse(cx: float, cy: float, rx: float, ry: float) -> Outline:
 
 def rectangle(x: float, y: float, width: float, height: float, rx: float, ry: float) -> Outline:
     """Return a rectangle, its corners rounded by radii above zero."""
-    right, low = x + width, y + height
     if rx <= 0 or ry <= 0:
-        return polyline(np.array([[x, y], [right, y], [right, low], [x, low]]), True)
+        return box(x, y, width, height)
+    right, low = x + width, y + height
     rx, ry = min(rx, width / 2), min(ry, height / 2)
     corner = [rx, ry, 0.0, 0.0, 1.0]
     return _drawn(

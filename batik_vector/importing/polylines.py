@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from batik_vector.errors import TooLargeError
-from batik_vector.importing.outlines import CURVE, LINE, MOVE, Outline
+from batik_vector.importing.outlines import CONTROL, CURVE, LINE, MOVE, Outline
 from batik_vector.units import STEPS_PER_MM
 from batik_vector.values import frozen
 
@@ -25,9 +25,8 @@ GRID_SNAP_STEPS = 1e-4
 """What lies this near the 1 µm grid lies on it, so that our own files come back to the bit."""
 HALVINGS = 60
 """Each halves the stretch in which a crossing lies; past 53 a float has no further halves."""
-SAMPLES = 33
-"""Places at which a curve is looked at for crossings; two between neighbouring places are overlooked,
-where it only dips over the edge and back."""
+LEAST_RISE_MM = 3e-6
+"""By how much a curve has to turn back for the turn to be a vertex; what rises less has one at its end."""
 MAX_PIECES = 10_000
 MAX_CURVED = 5_000_000
 """Points that all curves of a drawing may come to; up to polygons they take some 130 bytes each."""
@@ -45,12 +44,16 @@ class Lines:
 
 
 @frozen(eq=False)
-class Crossings:
-    """Where curves cross the page's edges: number of the cubic, parameter on it, and place."""
+class Meetings:
+    """Where curves meet the page's edges: number of the cubic, parameter on it, place, whether it crosses.
+
+    Where it does not, it turns back at the edge, or short of it by less than the tolerance.
+    """
 
     cubic: Indices
     at: Points
     place: Points
+    crosses: NDArray[np.bool_]
 
 
 def flattened(outline: Outline, width: float, height: float, tolerance: float) -> Lines:
@@ -66,15 +69,32 @@ def flattened(outline: Outline, width: float, height: float, tolerance: float) -
         TooLargeError: where the curves would come to more than ``MAX_CURVED`` points.
     """
     points = snapped(outline.points, width, height)
+    _meet(points, outline.kinds)
     end = np.flatnonzero(outline.kinds == CURVE)
     control = points[end[:, None] + np.array([-3, -2, -1, 0])]
     plain = np.flatnonzero((outline.kinds == MOVE) | (outline.kinds == LINE))
-    owner, at, bent = _divided(control, _crossings(control, width, height), width, height, tolerance)
+    owner, at, bent = _divided(
+        control, _meetings(control, width, height, tolerance), width, height, tolerance
+    )
     places = np.concatenate([points[plain], bent])
     node = np.concatenate([plain, end[owner]])
     order = np.lexsort((np.concatenate([np.ones(len(plain)), at]), node))
     begins = np.flatnonzero((outline.kinds == MOVE)[node[order]])
     return Lines(places[order], np.append(begins, len(order)).astype(np.intp))
+
+
+def bounds_of(outline: Outline) -> tuple[float, float, float, float]:
+    """Return how far an outline reaches: left, lower, right and upper bound in its own units."""
+    end = np.flatnonzero(outline.kinds == CURVE)
+    control = outline.points[end[:, None] + np.array([-3, -2, -1, 0])]
+    plain = outline.points[outline.kinds != CONTROL]
+    reached = []
+    for axis in (0, 1):
+        curved = control[:, :, axis]
+        turns = _bernstein(curved[:, None, :], _turns(curved))
+        reached.append(np.concatenate([plain[:, axis], turns.ravel()]))
+    x, y = reached
+    return float(x.min()), float(y.min()), float(x.max()), float(y.max())
 
 
 def snapped(points: Points, width: float, height: float) -> Points:
@@ -89,10 +109,21 @@ def snapped(points: Points, width: float, height: float) -> Points:
     return points
 
 
+def _meet(points: Points, kinds: NDArray[np.uint8]) -> None:
+    """Let subpaths that all but come back to where they began end there, in place.
+
+    Relative steps miss it by the last bits of their sums, which a fill would take for a crossing.
+    """
+    begin = np.flatnonzero(kinds == MOVE)
+    last = np.append(begin[1:], len(kinds)) - 1
+    back = (np.abs(points[last] - points[begin]) <= SNAP_MM).all(axis=1)
+    points[last[back]] = points[begin[back]]
+
+
 def _divided(
-    control: Points, crossings: Crossings, width: float, height: float, tolerance: float
+    control: Points, meetings: Meetings, width: float, height: float, tolerance: float
 ) -> tuple[Indices, Points, Points]:
-    """Divide cubics evenly between their ends and crossings: (cubic, parameter, place), without the starts.
+    """Divide cubics evenly between their ends and meetings: (cubic, parameter, place), without the starts.
 
     Wang's bound: n pieces are off by at most max|P_i − 2·P_{i+1} + P_{i+2}|·3/(4·n²).
     """
@@ -101,12 +132,12 @@ def _divided(
     need = np.sqrt(0.75 * np.hypot(bend[..., 0], bend[..., 1]).max(axis=1, initial=0.0) / tolerance)
     ends = control[:, [0, 3]]
     on_edge = ((ends == 0.0) | (ends == np.array([width, height]))).any(axis=(1, 2))
-    on_edge[crossings.cubic] = True
+    on_edge[meetings.cubic[meetings.crosses]] = True
     need = np.where(on_edge, FINER * need, need)
-    # Spans from one end or crossing to the next.
-    owner = np.concatenate([crossings.cubic, cubics])
-    stop = np.concatenate([crossings.at, np.ones(len(control))])
-    place = np.concatenate([crossings.place, control[:, 3]])
+    # Spans from one end or meeting to the next.
+    owner = np.concatenate([meetings.cubic, cubics])
+    stop = np.concatenate([meetings.at, np.ones(len(control))])
+    place = np.concatenate([meetings.place, control[:, 3]])
     order = np.lexsort((stop, owner))
     owner, stop, place = owner[order], stop[order], place[order]
     start = np.where(
@@ -128,39 +159,65 @@ def _divided(
     return owner[span], at, found
 
 
-def _crossings(control: Points, width: float, height: float) -> Crossings:
-    """Return where cubics cross the page's edges between their ends."""
-    owners, params, places = [], [], []
+def _meetings(control: Points, width: float, height: float, tolerance: float) -> Meetings:
+    """Return where cubics cross the page's edges between their ends, or turn back at them."""
+    owners, params, places, kinds = [], [], [], []
     for axis, far in ((0, width), (1, height)):
         for edge in (0.0, far):
             at = control[:, :, axis] - edge
-            which = np.flatnonzero((at.min(axis=1) < 0) & (at.max(axis=1) > 0))
-            own, t = _roots(at[which])
+            which = np.flatnonzero((at.min(axis=1) <= tolerance) & (at.max(axis=1) >= -tolerance))
+            own, t, crosses = _roots(at[which], tolerance)
             place = _evaluated(control[which[own]], t)
-            place[:, axis] = edge
+            place[crosses | (np.abs(place[:, axis] - edge) <= SNAP_MM), axis] = edge
             owners.append(which[own])
             params.append(t)
             places.append(place)
-    return Crossings(np.concatenate(owners), np.concatenate(params), np.concatenate(places))
+            kinds.append(crosses)
+    owner, at = np.concatenate(owners), np.concatenate(params)
+    return Meetings(owner, at, np.concatenate(places), np.concatenate(kinds))
 
 
-def _roots(coefficients: Points) -> tuple[Indices, Points]:
-    """Return where polynomials in Bernstein form, shape (m, 4), change their sign inside (0, 1)."""
-    t = np.linspace(0, 1, SAMPLES)
+def _roots(coefficients: Points, tolerance: float) -> tuple[Indices, Points, NDArray[np.bool_]]:
+    """Return where polynomials in Bernstein form, shape (m, 4), meet zero inside (0, 1): row, place, kind.
+
+    They change their sign there, or else have an extreme no further than a tolerance from it.
+    """
+    t = _turns(coefficients)
     value = _bernstein(coefficients[:, None, :], t)
-    # What begins or ends on the edge does not cross it there.
+    # What begins or ends on the edge does not cross it there, and what turns back at it not at all.
     sign = np.where(np.abs(value) <= SNAP_MM, 0, np.sign(value))
-    # A place that falls on the edge itself is passed over: what counts is the side on which it was last.
-    last = np.maximum.accumulate(np.where(sign != 0, np.arange(SAMPLES), 0), axis=1)
+    last = np.maximum.accumulate(np.where(sign != 0, np.arange(t.shape[1]), 0), axis=1)
     own, at = np.nonzero(np.take_along_axis(sign, last, axis=1)[:, :-1] * sign[:, 1:] < 0)
     since = last[own, at]
-    low, high = t[since], t[at + 1]
+    low, high = t[own, since], t[own, at + 1]
     rising = value[own, since] < 0
     for _ in range(HALVINGS):
         middle = (low + high) / 2
         below = (_bernstein(coefficients[own], middle) < 0) == rising
         low, high = np.where(below, middle, low), np.where(below, high, middle)
-    return own, (low + high) / 2
+    rises = np.minimum(np.abs(value - value[:, :1]), np.abs(value - value[:, -1:])) > LEAST_RISE_MM
+    turns, which = np.nonzero((np.abs(value) <= tolerance) & rises)
+    return (
+        np.concatenate([own, turns]),
+        np.concatenate([(low + high) / 2, t[turns, which]]),
+        np.repeat([True, False], [len(own), len(turns)]),
+    )
+
+
+def _turns(coefficients: Points) -> Points:
+    """Return 0, where polynomials in Bernstein form, shape (m, 4), turn back, and 1, ascending: shape (m, 4).
+
+    Where they turn back in fewer places, 0 stands for them.
+    """
+    p, q, r = np.diff(coefficients, axis=1).T
+    # The derivative is a·t² + 2·b·t + p, a third of it.
+    a, b = p - 2 * q + r, q - p
+    with np.errstate(divide="ignore", invalid="ignore"):
+        k = -(b + np.copysign(np.sqrt(b * b - a * p), b))
+        found = np.stack([k / a, p / k], axis=1)
+    found[~((found > 0) & (found < 1))] = 0.0
+    t = np.concatenate([np.zeros((len(p), 1)), found, np.ones((len(p), 1))], axis=1)
+    return np.sort(t, axis=1)
 
 
 def _bernstein(values: Points, t: Points) -> Points:

@@ -20,6 +20,7 @@ INITIAL: Mapping[str, str] = {
     "fill": "black",
     "fill-opacity": "1",
     "fill-rule": "nonzero",
+    "clip-rule": "nonzero",
     "stroke": "none",
     "stroke-opacity": "1",
     "stroke-width": "1",
@@ -71,6 +72,7 @@ class Styles:
 
     document: Document
     _matched: dict[ET.Element, dict[str, tuple[str, bool]]] = field(default_factory=dict)
+    _parents: dict[ET.Element, ET.Element] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         sheets = [each for each in self.document.root.iter() if local(each) == "style" and each.text]
@@ -102,6 +104,18 @@ class Styles:
                 style[name] = value
         if style["color"].lower() == "currentcolor":
             style["color"] = parent["color"]
+        return style
+
+    def standing(self, element: ET.Element) -> Style:
+        """Return the style that an element has where it stands, whoever refers to it."""
+        if not self._parents:
+            self._parents = {child: parent for parent in self.document.root.iter() for child in parent}
+        line = [element]
+        while line[-1] in self._parents:
+            line.append(self._parents[line[-1]])
+        style = INITIAL
+        for each in reversed(line):
+            style = self.of(each, style)
         return style
 
     def _match(self, text: str) -> None:

@@ -17,14 +17,16 @@ import numpy as np
 from batik_vector.artwork import Artwork, Cell, DropAxis
 from batik_vector.errors import GeometryError, TooLargeError
 from batik_vector.importing.bodies import bodies_on_rim
+from batik_vector.importing.clips import clipped
 from batik_vector.importing.document import Document, DrawingError, children, load, local, parse
 from batik_vector.importing.inks import Marks, layers_of, painted
 from batik_vector.importing.matrix import Matrix
-from batik_vector.importing.outlines import CURVE, joined
-from batik_vector.importing.page import Page, page_of
+from batik_vector.importing.outlines import CURVE, Outline, joined
+from batik_vector.importing.page import Page
 from batik_vector.importing.painting import Bodies
-from batik_vector.importing.polylines import flattened
-from batik_vector.importing.walk import Shape, Walker
+from batik_vector.importing.polylines import Lines, flattened
+from batik_vector.importing.tilings import drawn
+from batik_vector.importing.walk import Shape
 from batik_vector.tiling.symmetry.repeats import parse_repeat
 from batik_vector.units import STEPS_PER_MM, format_mm
 from batik_vector.values import frozen
@@ -92,9 +94,8 @@ def read_svg(
     data, name = load(source)
     document = parse(data, name)
     ours = NAMESPACE in data
-    page = page_of(document)
+    page, shapes = drawn(document)
     cell = _cell(document, page, drop, axis, bleed)
-    shapes = Walker(document, page).walk()
     if not shapes:
         raise document.fault("nothing is drawn: no shape has a fill or a stroke that shows")
     try:
@@ -124,10 +125,14 @@ def _marks(shapes: list[Shape], page: Page, cell: Cell, tolerance: float, bleed:
     """Return what shapes paint in mm, y up, the cell's lower left corner at (0, 0)."""
     across, up = cell.width / (page.width - 2 * bleed), cell.height / (page.height - 2 * bleed)
     flip: Matrix = (across, 0.0, 0.0, -up, -bleed * across, (page.height - bleed) * up)
-    outline = joined([shape.outline for shape in shapes]).moved(flip)
-    lines = flattened(outline, cell.width, cell.height, tolerance)
+
+    def flatten(outline: Outline) -> Lines:
+        return flattened(outline.moved(flip), cell.width, cell.height, tolerance)
+
+    outline = joined([shape.outline for shape in shapes])
     counts = np.array([len(shape.outline.closed) for shape in shapes], np.intp)
-    return painted([shape.under(flip) for shape in shapes], lines, counts, outline.closed)
+    marks = painted([shape.under(flip) for shape in shapes], flatten(outline), counts, outline.closed)
+    return clipped(marks, flatten, tolerance)
 
 
 def _page_notes(document: Document, page: Page, cell: Cell, bleed: float) -> None:

@@ -1,21 +1,20 @@
 """The walk over a drawing's tree: what is painted, in painting order, as outlines on the page.
 
 Groups, nested pages, ``use`` and symbols are followed, transforms and styles carried down. What paints
-without being an outline (pictures, text, patterns, clips, masks, filters) is refused by name and line.
+without being an outline (pictures, text, masks, filters) is refused by name and line.
 """
 
 from __future__ import annotations
 
-import re
+import contextlib
 import xml.etree.ElementTree as ET
 from dataclasses import replace
 
 import numpy as np
 
+from batik_vector.importing.clip_paths import MAX_REACH_MM, Clip, ClipPaths, Part, Space, box_of
 from batik_vector.importing.document import (
-    INKSCAPE,
     MAX_DEPTH,
-    SERIF,
     SWITCHES,
     Document,
     children,
@@ -23,12 +22,14 @@ from batik_vector.importing.document import (
     reference,
 )
 from batik_vector.importing.gradients import Gradient
-from batik_vector.importing.matrix import IDENTITY, Matrix, moved, spread, times
+from batik_vector.importing.layer_names import layer_of
+from batik_vector.importing.matrix import IDENTITY, Matrix, spread, times
 from batik_vector.importing.origins import transform_of
-from batik_vector.importing.outlines import Outline, polyline
-from batik_vector.importing.page import Page, fitted, parse_px, view_box
-from batik_vector.importing.paint import EXPAND, look_of, paint_of, url_of
+from batik_vector.importing.outlines import Outline, box
+from batik_vector.importing.page import Box, Page, fitted, parse_px, view_box
+from batik_vector.importing.paint import EXPAND, look_of, paint_of
 from batik_vector.importing.painting import Paint
+from batik_vector.importing.patterns import Pattern, pattern_of, server_of
 from batik_vector.importing.pens import Pen, pen_of
 from batik_vector.importing.shapes import SHAPES, outline_of
 from batik_vector.importing.styles import GEOMETRY, INITIAL, MOVES, Style, Styles, share_of
@@ -39,8 +40,6 @@ MAX_POINTS = 20_000_000
 """Shapes and points a drawing may have once every ``use`` in it is followed."""
 MAX_WORK = 1_000_000
 """Elements to which ``use`` may lead, painted or not, long attributes counted as several."""
-MAX_REACH_MM = 1e6
-"""How far from the page a shape may reach; further off, products of whole µm leave 64 bits."""
 FRAME_SLACK = 1e-3
 """Parts of a side by which a clip may fall short of what it holds and still cut nothing away."""
 
@@ -53,7 +52,6 @@ _REFUSED = {
     "canvas": "is no geometry",
     "iframe": "is no geometry",
 }
-_LAYER_CODE = re.compile("_x([0-9A-Fa-f]{2,4})_")
 
 
 @frozen(eq=False)
@@ -62,7 +60,8 @@ class Shape:
 
     ``fill`` and ``stroke`` are ``#rrggbb``, or nothing. ``label`` is the name of the layer it lies in,
     ``name`` its own. ``width`` is the stroke's, in mm. ``looks`` are the paints of fill and stroke as they
-    show on a screen, None where that cannot be told, and ``pen`` is how a stroke's body is drawn.
+    show on a screen, None where that cannot be told, and ``pen`` is how a stroke's body is drawn. Of all
+    that, what lies in every one of ``clips`` shows. A ``tiling`` stands for a fill by a pattern.
     """
 
     outline: Outline
@@ -74,6 +73,8 @@ class Shape:
     width: float
     looks: tuple[Paint | None, Paint | None]
     pen: Pen
+    clips: tuple[Clip, ...] = ()
+    tiling: Tiling | None = None
 
     def under(self, matrix: Matrix) -> Shape:
         """Return the shape with paints for a page that is moved by an affine map, its outline left alone."""
@@ -84,7 +85,7 @@ class Shape:
 
 
 @frozen
-class _Here:
+class Here:
     """What holds at one place of the tree."""
 
     matrix: Matrix
@@ -93,8 +94,17 @@ class _Here:
     size: tuple[float, float] = (0.0, 0.0)
     used: tuple[ET.Element, ...] = ()
     depth: int = 0
-    frames: tuple[tuple[ET.Element, Outline, Matrix], ...] = ()
+    clips: tuple[Clip, ...] = ()
     opacity: float = 1.0
+
+
+@frozen(eq=False)
+class Tiling:
+    """A fill by a pattern whose cells are still to be drawn; ``here`` is where the filled mark stands."""
+
+    element: ET.Element
+    pattern: Pattern
+    here: Here
 
 
 class Walker:
@@ -105,26 +115,29 @@ class Walker:
         self.page = page
         self.shapes: list[Shape] = []
         self._styles = Styles(document)
+        self._clip_paths = ClipPaths(document, self._styles, self._spend)
+        self._measured: list[Outline] | None = None
         self._points = 0
         self._work = 0
 
     def walk(self) -> list[Shape]:
-        """Return the shapes in painting order.
+        """Return the shapes in painting order; fills by patterns are left as tilings.
 
         Raises:
             DrawingError: with all that cannot be read.
         """
         root = self.document.root
         style = self._styles.of(root, INITIAL)
-        here = _Here(self.page.matrix, style, size=self.page.size, opacity=_opacity(style))
+        here = Here(self.page.matrix, style, size=self.page.size, opacity=_opacity(style))
         if self._painted(root, style):
-            self._refused_effects(root, style, here)
+            self._refused_effects(root, style)
+            here = replace(here, clips=self._clips(root, style, here))
             for child in children(root):
                 self._visit(child, here, top=True)
         self.document.settle()
         return self.shapes
 
-    def _visit(self, element: ET.Element, here: _Here, top: bool = False) -> None:
+    def _visit(self, element: ET.Element, here: Here, top: bool = False) -> None:
         if here.used:
             self._spend(element)
         kind = local(element)
@@ -139,15 +152,26 @@ class Walker:
             return
         self._refuse_styled_geometry(element, kind, style)
         matrix = times(here.matrix, self._transform(element, style, here))
+        if kind == "use":
+            # They are one more transform of its own, and its clips lie behind it too (SVG 2, 5.6).
+            x, y = _px(element.get("x"), 0.0, here.size[0]), _px(element.get("y"), 0.0, here.size[1])
+            matrix = times(matrix, (1.0, 0.0, 0.0, 1.0, x, y))
         opacity = here.opacity * _opacity(style)
         inside = replace(here, matrix=matrix, style=style, depth=here.depth + 1, opacity=opacity)
         if inside.depth > MAX_DEPTH:
             raise self.document.fault(f"nested deeper than {MAX_DEPTH} elements", element)
-        self._refused_effects(element, style, inside)
+        self._refused_effects(element, style)
+        if self._measured is None:
+            inside = replace(inside, clips=inside.clips + self._clips(element, style, inside))
+        self._enter(element, inside, top)
+
+    def _enter(self, element: ET.Element, inside: Here, top: bool) -> None:
+        """Draw an element whose own transform, style and clips are known."""
+        kind = local(element)
         if kind in SHAPES:
             self._draw(element, inside)
         elif kind in ("g", "a"):
-            inside = replace(inside, label=_label(element, here.label, top))
+            inside = replace(inside, label=layer_of(element, inside.label, top))
             for child in children(element):
                 self._visit(child, inside)
         elif kind == "switch":
@@ -176,43 +200,44 @@ class Walker:
             if style.get(name, "none") not in ("none", "normal"):
                 self.document.refuse(element, f"is moved by the style {name}; write it as a transform")
 
-    def _transform(self, element: ET.Element, style: Style, here: _Here) -> Matrix:
+    def _transform(self, element: ET.Element, style: Style, here: Here) -> Matrix:
         try:
             return transform_of(style, here.size)
         except ValueError as error:
             self.document.refuse(element, str(error))
             return IDENTITY
 
-    def _switch(self, element: ET.Element, here: _Here) -> None:
+    def _switch(self, element: ET.Element, here: Here) -> None:
         """Draw the first child that asks for nothing beyond SVG."""
         for child in children(element):
             if not any(child.get(name) for name in SWITCHES) and local(child) != "foreignObject":
                 self._visit(child, here)
                 return
 
-    def _viewport(self, element: ET.Element, here: _Here, size: tuple[str, str] = ("", "")) -> None:
+    def _viewport(self, element: ET.Element, here: Here, size: tuple[str, str] = ("", "")) -> None:
         """Draw a nested svg, or a symbol in the size that a use gives it."""
         width = _px(size[0] or element.get("width"), here.size[0], here.size[0])
         height = _px(size[1] or element.get("height"), here.size[1], here.size[1])
         if width <= 0 or height <= 0:
             return
         x, y = _px(element.get("x"), 0.0, here.size[0]), _px(element.get("y"), 0.0, here.size[1])
-        box = view_box(self.document, element)
-        inner = fitted(box, width, height, element.get("preserveAspectRatio", ""))
+        frame = view_box(self.document, element)
+        inner = fitted(frame, width, height, element.get("preserveAspectRatio", ""))
         outer = times(here.matrix, (1.0, 0.0, 0.0, 1.0, x, y))
-        frames = here.frames
+        clips = here.clips
         if here.style.get("overflow", "hidden") not in ("visible", "auto"):
-            frames += ((element, _box(0.0, 0.0, width, height), outer),)
+            edge = Clip(box(0.0, 0.0, width, height).moved(outer), (Part(1),))
+            clips += () if self._holds_page(edge) else (edge,)
         inside = replace(
             here,
             matrix=times(outer, inner),
-            size=(box[2], box[3]) if box else (width, height),
-            frames=frames,
+            size=(frame[2], frame[3]) if frame else (width, height),
+            clips=clips,
         )
         for child in children(element):
             self._visit(child, inside)
 
-    def _use(self, element: ET.Element, here: _Here) -> None:
+    def _use(self, element: ET.Element, here: Here) -> None:
         target = reference(element)
         found = self.document.by_id.get(target[1:]) if target.startswith("#") else None
         if found is None:
@@ -222,8 +247,7 @@ class Walker:
         if found in here.used or found is self.document.root:
             self.document.refuse(element, f'refers to "{target[:60]}", which it is part of')
             return
-        x, y = _px(element.get("x"), 0.0, here.size[0]), _px(element.get("y"), 0.0, here.size[1])
-        here = replace(here, matrix=times(here.matrix, (1.0, 0.0, 0.0, 1.0, x, y)), used=(*here.used, found))
+        here = replace(here, used=(*here.used, found))
         if local(found) == "symbol":
             style = self._styles.of(found, here.style)
             if self._painted(found, style):
@@ -232,17 +256,24 @@ class Walker:
                 )
                 self._refuse_styled_geometry(found, "symbol", style)
                 self._spend(found)
-                self._refused_effects(found, style, inside)
+                self._refused_effects(found, style)
+                if self._measured is None:
+                    inside = replace(inside, clips=inside.clips + self._clips(found, style, inside))
                 self._viewport(found, inside, (element.get("width", ""), element.get("height", "")))
         else:
             self._visit(found, here)
 
-    def _draw(self, element: ET.Element, here: _Here) -> None:
+    def _draw(self, element: ET.Element, here: Here) -> None:
         style = here.style
-        fill, stroke = (paint_of(self.document, element, style, what) for what in ("fill", "stroke"))
+        if self._measured is not None:
+            self._measure(element, here)
+            return
+        server = server_of(self.document, style)
+        stroke = paint_of(self.document, element, style, "stroke")
+        fill = "" if server is not None else paint_of(self.document, element, style, "fill")
         width = _px(style["stroke-width"], 1.0, float(np.hypot(*here.size)) / 2**0.5)
         stroke = stroke if width > 0 else ""
-        if style["visibility"] != "visible" or not (fill or stroke):
+        if style["visibility"] != "visible" or not (fill or stroke or server is not None):
             return
         try:
             drawn = outline_of(element, here.size)
@@ -256,22 +287,50 @@ class Walker:
         if not (np.abs(outline.points) <= MAX_REACH_MM).all():
             self.document.refuse(element, f"reaches further than {MAX_REACH_MM / 1e6:g} km from the page")
             return
-        self._within_frames(outline, here)
         if stroke:
             self._stroke_notes(element, style, here)
         breadth = self._breadth(style, width, here)
         names = here.label, element.get("id", "")
         looks = self._look("fill", fill, drawn, here), self._look("stroke", stroke, drawn, here)
         pen = pen_of(style, here.size, breadth / width if width else 1.0)
-        self.shapes.append(Shape(outline, *names, fill, style["fill-rule"], stroke, breadth, looks, pen))
+        shape = Shape(outline, *names, fill, style["fill-rule"], stroke, breadth, looks, pen, here.clips)
+        if server is not None:
+            self._tile(element, shape, here, (server, box_of([drawn])))
+        if fill or stroke:
+            self.shapes.append(shape)
 
-    def _look(self, what: str, ink: str, drawn: Outline, here: _Here) -> Paint | None:
+    def _tile(
+        self, element: ET.Element, shape: Shape, here: Here, paint: tuple[ET.Element, Box | None]
+    ) -> None:
+        """Keep the fill of a shape by a pattern."""
+        try:
+            pattern = pattern_of(self.document, paint[0], here.matrix, here.size, paint[1])
+        except ValueError as error:
+            self.document.refuse(paint[0], str(error))
+            return
+        if pattern is not None:
+            bare = replace(shape, stroke="", looks=(shape.looks[0], Paint("", "#000000")))
+            self.shapes.append(replace(bare, tiling=Tiling(element, pattern, here)))
+
+    def draw(self, element: ET.Element, here: Here) -> None:
+        """Draw what an element holds, as another refers to it."""
+        here = replace(here, style=self._styles.standing(element), used=(*here.used, element))
+        for child in children(element):
+            self._visit(child, here)
+
+    def _measure(self, element: ET.Element, here: Here) -> None:
+        self._spend(element)
+        if self._measured is not None:
+            with contextlib.suppress(ValueError):
+                self._measured.append(outline_of(element, here.size).moved(here.matrix))
+
+    def _look(self, what: str, ink: str, drawn: Outline, here: Here) -> Paint | None:
         """Return how a fill or a stroke shows, and take note of what cannot be told."""
         if not ink:
             return Paint(ink, "#000000")
         low, high = drawn.points.min(axis=0), drawn.points.max(axis=0)
-        box = (float(low[0]), float(low[1]), float(high[0] - low[0]), float(high[1] - low[1]))
-        look = look_of(self.document, here.style, what, ink, here.opacity, (here.matrix, box))
+        reach = (float(low[0]), float(low[1]), float(high[0] - low[0]), float(high[1] - low[1]))
+        look = look_of(self.document, here.style, what, ink, here.opacity, (here.matrix, reach))
         if look is None:
             self.document.leave_open("whether the colours of a mesh gradient agree at the seam")
         return look
@@ -282,7 +341,7 @@ class Walker:
             words = f"more than {MAX_SHAPES:,} shapes or {MAX_POINTS:,} points"
             raise self.document.fault(f"{words}, {_FOLLOWED}", element)
 
-    def _breadth(self, style: Style, width: float, here: _Here) -> float:
+    def _breadth(self, style: Style, width: float, here: Here) -> float:
         if style.get("vector-effect") == "non-scaling-stroke":
             return width * spread(self.page.matrix)[0]
         most, least = spread(here.matrix)
@@ -290,49 +349,36 @@ class Walker:
             self.document.note("lines under a lopsided transform have their mean breadth")
         return width * float((most * least) ** 0.5)
 
-    def _stroke_notes(self, element: ET.Element, style: Style, here: _Here) -> None:
+    def _stroke_notes(self, element: ET.Element, style: Style, here: Here) -> None:
         if style["stroke-dasharray"] not in ("none", "0"):
             self.document.note("dashed lines are taken as whole ones, but at the seam")
         if any(style[name] != "none" for name in ("marker-start", "marker-mid", "marker-end")):
             self.document.refuse(element, f"has markers at its ends; {EXPAND}")
 
-    def _refused_effects(self, element: ET.Element, style: Style, here: _Here) -> None:
+    def _refused_effects(self, element: ET.Element, style: Style) -> None:
         for name in ("mask", "filter"):
             if style.get(name, "none") not in ("none", ""):
                 self.document.refuse(element, f"has a {name}; {EXPAND}")
         if style.get("mix-blend-mode", "normal") != "normal":
             self.document.leave_open("how colours that are blended (mix-blend-mode) show at the seam")
-        clip = url_of(style.get("clip-path", "none"))
-        if clip is None:
-            if style.get("clip-path", "none") not in ("none", ""):
-                self.document.refuse(element, f"is clipped; {EXPAND}")
-        elif not self._clips_nothing(clip[0], here):
-            self.document.refuse(element, f"is clipped; {EXPAND}")
 
-    def _clips_nothing(self, target: str, here: _Here) -> bool:
+    def _clips(self, element: ET.Element, style: Style, here: Here) -> tuple[Clip, ...]:
+        """Return the clips of an element itself; mere frames round the page are left out."""
+        space = Space(here.matrix, here.size, lambda: self._box(element, here))
+        found = self._clip_paths.of(element, style, space)
+        return tuple(clip for clip in found if not self._holds_page(clip))
+
+    def _holds_page(self, clip: Clip) -> bool:
         """Whether a clip is a mere frame round the page, as Figma and Illustrator set one about all."""
-        clip = self.document.by_id.get(target[1:]) if target.startswith("#") else None
-        if clip is None or clip.get("clipPathUnits") == "objectBoundingBox" or clip.get("clip-path"):
-            return clip is None
-        inner = [child for child in children(clip) if local(child) not in _PASSED]
-        if len(inner) != 1 or local(inner[0]) not in ("rect", "path", "polygon"):
-            return False
-        self._spend(inner[0])
-        matrix = times(here.matrix, self._transform(clip, clip.attrib, here))
-        matrix = times(matrix, self._transform(inner[0], inner[0].attrib, here))
-        try:
-            return _covers(outline_of(inner[0], here.size).moved(matrix), self.page.width, self.page.height)
-        except ValueError:
-            return False
+        plain = len(clip.parts) == 1 and not clip.parts[0].within and clip.parts[0].subpaths == 1
+        return plain and _covers(clip.outline, self.page.width, self.page.height)
 
-    def _within_frames(self, outline: Outline, here: _Here) -> None:
-        """Refuse what a nested page or a symbol would cut off at its frame."""
-        low, high = outline.points.min(axis=0), outline.points.max(axis=0)
-        for element, frame, matrix in here.frames:
-            corners = moved(frame.points, matrix)
-            slack = FRAME_SLACK * np.ptp(corners, axis=0)
-            if (low < corners.min(axis=0) - slack).any() or (high > corners.max(axis=0) + slack).any():
-                self.document.refuse(element, f"cuts off what reaches beyond its frame; {EXPAND}")
+    def _box(self, element: ET.Element, here: Here) -> Box | None:
+        """Return the box of what an element draws, painted or not, in its own units."""
+        kept, self._measured = self._measured, []
+        self._enter(element, replace(here, matrix=IDENTITY, used=(*here.used, element)), False)
+        found, self._measured = self._measured, kept
+        return box_of(found)
 
 
 def _under(look: Paint, matrix: Matrix) -> Paint:
@@ -357,10 +403,6 @@ def _px(text: str | None, default: float, whole: float) -> float:
     return default if value is None else value
 
 
-def _box(x: float, y: float, width: float, height: float) -> Outline:
-    return polyline(np.array([[x, y], [x + width, y], [x + width, y + height], [x, y + height]]), True)
-
-
 def _covers(outline: Outline, width: float, height: float) -> bool:
     """Whether an outline is an upright rectangle that holds the page."""
     points = outline.points
@@ -370,17 +412,3 @@ def _covers(outline: Outline, width: float, height: float) -> bool:
     corners = len(np.unique(np.round(points, 6), axis=0)) == 4
     holds = (low <= slack).all() and (high >= np.array([width, height]) - slack).all()
     return bool(upright and corners and holds)
-
-
-def _label(element: ET.Element, outer: str, top: bool) -> str:
-    """Return the name of the layer that the marks in a group belong to.
-
-    Inkscape's layers say so; elsewhere they are the groups directly in the root.
-    """
-    layer = element.get(f"{{{INKSCAPE}}}groupmode") == "layer"
-    if not (layer or top):
-        return outer
-    name = element.get(f"{{{INKSCAPE}}}label") or element.get(f"{{{SERIF}}}id") or element.get("id") or ""
-    # Illustrator writes what an id may not hold as _x20_.
-    name = _LAYER_CODE.sub(lambda code: chr(int(code[1], 16)), name)
-    return " ".join(name.split()) or outer
