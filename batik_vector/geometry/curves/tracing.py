@@ -163,9 +163,10 @@ def _bending(points: Points, kept: Indices, fixed: NDArray[np.bool_]) -> Indices
     total = np.cumsum(bent)
     before, after = np.roll(kept, 1), np.roll(kept, -1)
     # How many bends lie between the neighbours of each, round the end for the first and the last.
-    within = np.asarray(total[after] - bent[after] - total[before])
+    within: Indices = np.asarray(total[after] - bent[after] - total[before], np.intp)
     within[[0, -1]] += total[-1]
-    return kept[((within > 0) & moved[kept]) | there[kept]]
+    needed = ((within > 0) & moved[kept]) | there[kept]
+    return np.asarray(kept[needed])
 
 
 def _within(t: Array, loop: tuple[float, float]) -> slice:
