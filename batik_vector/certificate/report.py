@@ -44,6 +44,8 @@ class Kind(enum.StrEnum):
     """The drawing has another symmetry group than was asked for."""
     STRIPING = "striping"
     """Ink is spread less evenly over columns or rows than was allowed."""
+    FORM = "form"
+    """The artwork breaks the normal form, and is no drawing that was only read."""
 
 
 @frozen(kw_only=True)

@@ -3,7 +3,8 @@
     write_artwork(artwork, "kawung.dxf")
     write_artwork(artwork, "kawung.svg", options=SvgOptions(profile=Profile.COMPACT))
 
-What is drawn is a :class:`~batik_vector.artwork.Page`: an artwork, or metres of cloth that come in pieces.
+What is drawn is a :class:`~batik_vector.artwork.Page`: an artwork, or metres of cloth that come in pieces. An
+artwork that is not in the normal form is refused; ``check=False`` writes it as it is.
 
 A new format is a module with ``write(page, sink, options)`` and ``render(page, options) -> bytes``, an
 options class in :mod:`batik_vector.export.options`, and a line in ``FORMATS``.
@@ -102,36 +103,43 @@ def format_of(path: str | os.PathLike[str]) -> str:
     raise UnknownNameError(suffix.removeprefix(".") or Path(path).name, list(FORMATS), "format")
 
 
-def render(artwork: Page, format: str, options: Any = None) -> bytes:
+def render(artwork: Page, format: str, options: Any = None, *, check: bool = True) -> bytes:
     """Return an artwork, or any other page, as the bytes of a file.
 
     Args:
         artwork: what to write, in the normal form.
         format: a name in ``FORMATS``.
         options: an instance of the format's options class; its defaults when left out.
+        check: whether an artwork that breaks the normal form is refused. A page that comes in pieces is not
+            looked at.
 
     Raises:
         UnknownNameError: where the format is unknown.
-        ExportError: where the artwork cannot be written in it, or the options are another format's.
+        ExportError: where the artwork breaks the normal form or cannot be written in the format, or the
+            options are another format's.
     """
     chosen, options = _chosen(format, options)
+    if check:
+        _refuse_unsound(artwork)
     return chosen.render(artwork, options)
 
 
-def write_page(page: Page, sink: BinaryIO, format: str, options: Any = None) -> None:
-    """Write a page into a sink, piece by piece: memory does not grow with the page.
+def write_page(page: Page, sink: BinaryIO, format: str, options: Any = None, *, check: bool = True) -> None:
+    """Write a page into a sink, piece by piece: memory does not grow with the page, but to check an artwork.
 
     Args:
         page: what to write, in the normal form.
         sink: open for writing and seeking.
         format: a name in ``FORMATS``.
-        options: see :func:`render`.
+        options, check: see :func:`render`.
 
     Raises:
         UnknownNameError: where the format is unknown.
-        ExportError: where the page cannot be written in it, or the options are another format's.
+        ExportError: where the page cannot be written; see :func:`render`.
     """
     chosen, options = _chosen(format, options)
+    if check:
+        _refuse_unsound(page)
     chosen.write(page, sink, options)
 
 
@@ -148,8 +156,25 @@ def _chosen(format: str, options: Any) -> tuple[Format, Any]:
     return chosen, options
 
 
+def _refuse_unsound(page: Page) -> None:
+    # Formats are named in help, too, which does without all that geometry needs.
+    from batik_vector.artwork import Artwork, violations
+
+    broken = violations(page) if isinstance(page, Artwork) else []
+    if broken:
+        raise ExportError(
+            f'"{page.title}" breaks the normal form: {"; ".join(broken)}. '
+            "Mend it, or write it as it is with check=False"
+        )
+
+
 def write_artwork(
-    artwork: Page, path: str | os.PathLike[str], format: str | None = None, options: Any = None
+    artwork: Page,
+    path: str | os.PathLike[str],
+    format: str | None = None,
+    options: Any = None,
+    *,
+    check: bool = True,
 ) -> Path:
     """Write an artwork, or any other page, to a file, whole or not at all.
 
@@ -157,15 +182,17 @@ def write_artwork(
         artwork: what to write, in the normal form.
         path: where to.
         format: a name in ``FORMATS``; by the path's suffix when left out.
-        options: see :func:`render`.
+        options, check: see :func:`render`.
 
     Returns:
         The path.
 
     Raises:
         UnknownNameError: where the format is unknown.
-        ExportError: where the artwork or the file cannot be written.
+        ExportError: where the artwork or the file cannot be written; see :func:`render`.
     """
     chosen, options = _chosen(format or format_of(path), options)
+    if check:
+        _refuse_unsound(artwork)
     write_whole(path, lambda sink: chosen.write(artwork, sink, options))
     return Path(path)
