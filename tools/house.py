@@ -34,6 +34,7 @@ FLOORS: Floors = _floors(
     "_version values patterns",
     "errors units",
     "fields",
+    "fitting",
     "geometry",
     "artwork",
     "tiling export",

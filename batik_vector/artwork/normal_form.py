@@ -11,6 +11,7 @@ import shapely
 from numpy.typing import NDArray
 
 from batik_vector.artwork.page import Artwork, Geometries, Layer, Overlap
+from batik_vector.fitting import given
 from batik_vector.geometry.sampling import Points
 from batik_vector.units import GRID_MM, STEPS_PER_MM, nearest_steps, on_grid
 from batik_vector.values import frozen
@@ -40,6 +41,7 @@ def violations(artwork: Artwork) -> list[str]:
 
 def breaches(artwork: Artwork) -> list[Breach]:
     """Return what breaks the rules of the normal form, and where."""
+    given(artwork, Artwork, "artwork")
     names = Counter(layer.ink.name for layer in artwork.layers)
     found = [Breach("", f'two layers named "{name}"') for name, times in names.items() if times > 1]
     for layer in artwork.layers:

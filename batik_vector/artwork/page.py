@@ -6,20 +6,29 @@ import enum
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import field, replace
 from fractions import Fraction
-from itertools import pairwise
-from typing import Any, Protocol
+from itertools import chain, pairwise
+from typing import Annotated, Any, Protocol, TypeAlias
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
+from shapely.geometry.base import BaseGeometry
 
 from batik_vector.errors import ExportError, GeometryError
+from batik_vector.fields import Between, Converted
+from batik_vector.fitting import check
 from batik_vector.geometry.outlines import MM, Outlines, of_polygons, of_polylines
 from batik_vector.units import STEPS_PER_MM
 from batik_vector.values import frozen
 
 Geometries = NDArray[np.object_]
 """A one-dimensional array of shapely geometries."""
+
+MOST_STEPS = 2**53
+"""Beyond it grid steps are no longer whole numbers of the floats that hold them."""
+
+Border: TypeAlias = tuple[str, int, int, int]
+"""Ink, axis, from, to: see :class:`Artwork`."""
 
 PIECE = 1 << 16
 """Vertices that a page hands over at a time, about: what is made of them stays in the processor's cache."""
@@ -57,6 +66,9 @@ class Ink:
     width: float = 1.0
     overlap: Overlap = Overlap.WELD
 
+    def __post_init__(self) -> None:
+        check(self)
+
 
 @frozen
 class Cell:
@@ -66,17 +78,16 @@ class Cell:
     are shifted by p/q of the other side, which is a whole number of steps.
     """
 
-    columns: int
-    rows: int
-    drop: Fraction = Fraction(0)
+    columns: Annotated[int, Between(1, MOST_STEPS)]
+    rows: Annotated[int, Between(1, MOST_STEPS)]
+    drop: Annotated[Fraction, Converted(Fraction, "a fraction such as 1/2")] = Fraction(0)
     axis: DropAxis = DropAxis.COLUMN
 
     def __post_init__(self) -> None:
-        if self.columns < 1 or self.rows < 1:
-            raise ValueError("a cell has a positive width and height")
+        check(self)
         side = self.rows if self.axis == DropAxis.COLUMN else self.columns
         if (self.drop * side).denominator != 1:
-            raise ValueError(f"a drop of {self.drop} does not land on the grid: {side} µm is no multiple")
+            raise GeometryError(f"a drop of {self.drop} does not land on the grid: {side} µm is no multiple")
 
     @property
     def width(self) -> float:
@@ -108,6 +119,40 @@ def _no_geometry() -> Geometries:
     return np.empty(0, dtype=object)
 
 
+def _geometries(given: Any) -> Geometries:
+    """Return geometries of shapely, one or any number of them, as an array.
+
+    Raises:
+        TypeError: where they are none.
+    """
+    if isinstance(given, np.ndarray) and given.dtype == object and given.ndim == 1:
+        found = given
+    else:
+        listed = [given] if isinstance(given, BaseGeometry) else list(given)
+        found = np.empty(len(listed), dtype=object)
+        found[:] = listed
+    if not shapely.is_geometry(found).all():
+        raise TypeError
+    return found
+
+
+def _borders(given: Any) -> frozenset[Border]:
+    """Return stretches of the seam as a set.
+
+    Raises:
+        TypeError: where one is none.
+    """
+    found = given if type(given) is frozenset else frozenset(map(tuple, given))
+    # There may be many: all are looked at in one go.
+    if set(map(len, found)) <= {4} and set(map(type, chain.from_iterable(found))) <= {str, int}:
+        return found
+    raise TypeError
+
+
+Marks = Converted(_geometries, "a list of shapely geometries")
+"""Marks a field that holds geometries."""
+
+
 @frozen(eq=False)
 class Layer:
     """All marks of one ink: filled polygons and centre lines, each with the name of its element.
@@ -117,12 +162,13 @@ class Layer:
     """
 
     ink: Ink
-    areas: Geometries = field(default_factory=_no_geometry)
-    lines: Geometries = field(default_factory=_no_geometry)
+    areas: Annotated[Geometries, Marks] = field(default_factory=_no_geometry)
+    lines: Annotated[Geometries, Marks] = field(default_factory=_no_geometry)
     area_names: tuple[str, ...] = ()
     line_names: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
+        check(self)
         if not self.area_names and len(self.areas):
             object.__setattr__(self, "area_names", ("",) * len(self.areas))
         if not self.line_names and len(self.lines):
@@ -136,6 +182,9 @@ class Provenance:
     recipe: str = ""
     seed: int = 0
     version: str = ""
+
+    def __post_init__(self) -> None:
+        check(self)
 
 
 @frozen
@@ -229,8 +278,11 @@ class Artwork:
     tolerance: float = 0.02
     bleed: float = 0.0
     provenance: Provenance = Provenance()
-    borders: frozenset[tuple[str, int, int, int]] = frozenset()
+    borders: Annotated[frozenset[Border], Converted(_borders, "a set of (ink, axis, from, to)")] = frozenset()
     facts: Mapping[str, Any] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        check(self)
 
     @property
     def vertex_count(self) -> int:

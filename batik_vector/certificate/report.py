@@ -9,6 +9,7 @@ from dataclasses import asdict, fields
 from typing import Any
 
 from batik_vector.errors import GeometryError
+from batik_vector.fitting import check
 from batik_vector.values import frozen
 
 Place = tuple[float, float]
@@ -78,6 +79,7 @@ class Limits:
         return self.position / 8
 
     def __post_init__(self) -> None:
+        check(self)
         for name, value in vars(self).items():
             if value is not None and not 0 <= value < math.inf:
                 raise GeometryError(f"{name} = {value}, expected a number from 0 on")

@@ -17,7 +17,7 @@ from collections.abc import Mapping
 from importlib import import_module
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import TYPE_CHECKING, Annotated, Any, BinaryIO
 
 from batik_vector.errors import ExportError, UnknownNameError
 from batik_vector.export.files import write_all_whole, write_whole
@@ -31,6 +31,8 @@ from batik_vector.export.options import (
     Profile,
     SvgOptions,
 )
+from batik_vector.fields import Instead
+from batik_vector.fitting import given
 from batik_vector.values import frozen
 
 if TYPE_CHECKING:
@@ -96,6 +98,7 @@ def format_of(path: str | os.PathLike[str]) -> str:
     Raises:
         UnknownNameError: where no format has that suffix.
     """
+    given(path, str | os.PathLike, "path")
     suffix = Path(path).suffix.lower()
     for name, known in FORMATS.items():
         if known.suffix == suffix:
@@ -119,8 +122,7 @@ def render(artwork: Page, format: str, options: Any = None, *, check: bool = Tru
             options are another format's.
     """
     chosen, options = _chosen(format, options)
-    if check:
-        _refuse_unsound(artwork)
+    _refuse_unsound(artwork, check)
     return chosen.render(artwork, options)
 
 
@@ -138,12 +140,12 @@ def write_page(page: Page, sink: BinaryIO, format: str, options: Any = None, *, 
         ExportError: where the page cannot be written; see :func:`render`.
     """
     chosen, options = _chosen(format, options)
-    if check:
-        _refuse_unsound(page)
+    _refuse_unsound(page, check)
     chosen.write(page, sink, options)
 
 
 def _chosen(format: str, options: Any) -> tuple[Format, Any]:
+    given(format, str, "format")
     if format not in FORMATS:
         raise UnknownNameError(format, list(FORMATS), "format")
     chosen = FORMATS[format]
@@ -156,11 +158,14 @@ def _chosen(format: str, options: Any) -> tuple[Format, Any]:
     return chosen, options
 
 
-def _refuse_unsound(page: Page) -> None:
+def _refuse_unsound(page: Page, check: bool) -> None:
+    """Raise where a page is none or, if that is to be checked, an artwork breaks the normal form."""
     # Formats are named in help, too, which does without all that geometry needs.
     from batik_vector.artwork import Artwork, violations
 
-    broken = violations(page) if isinstance(page, Artwork) else []
+    if not hasattr(type(page), "plates"):
+        given(page, Annotated[Artwork, Instead("an Artwork: compile_recipe(recipe) makes one")], "artwork")
+    broken = violations(page) if check and isinstance(page, Artwork) else []
     if broken:
         raise ExportError(
             f'"{page.title}" breaks the normal form: {"; ".join(broken)}. '
@@ -191,8 +196,8 @@ def write_artwork(
         UnknownNameError: where the format is unknown.
         ExportError: where the artwork or the file cannot be written; see :func:`render`.
     """
+    given(path, str | os.PathLike, "path")
     chosen, options = _chosen(format or format_of(path), options)
-    if check:
-        _refuse_unsound(artwork)
+    _refuse_unsound(artwork, check)
     write_whole(path, lambda sink: chosen.write(artwork, sink, options))
     return Path(path)

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import pytest
 
-from batik_vector import fields
+from batik_vector import fields, fitting
 from batik_vector.artwork import Artwork, Ink
 from batik_vector.compiling import placements
 from batik_vector.compiling.compiler import compile_recipe
@@ -114,7 +114,7 @@ def test_a_budget_fails_where_more_is_spent_and_tells_where_it_is_idle() -> None
 
 
 def test_annotations_are_resolved_once_and_only_those_a_recipe_needs() -> None:
-    for cache in (field_types.members, fields.hint_of, fields._span):
+    for cache in (field_types.members, fields.hint_of, fitting._quick):
         cache.cache_clear()
     with counted([(typing, "get_type_hints")]) as first:
         sample()

@@ -96,7 +96,7 @@ def test_options_are_checked() -> None:
         PngOptions(dpi=0)
     with pytest.raises(GeometryError, match="curve_tolerance"):
         SvgOptions(curve_tolerance=-1.0)
-    with pytest.raises(UnknownNameError, match='unknown curves "beziers": did you mean "bezier"'):
+    with pytest.raises(GeometryError, match='unknown curves "beziers": did you mean "bezier"'):
         SvgOptions(curves="beziers")  # type: ignore[arg-type]
     assert SvgOptions(curves="bezier").curves is Curves.BEZIER  # type: ignore[arg-type]
 

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
 
 from batik_vector.errors import GeometryError
+from batik_vector.fields import Between
+from batik_vector.fitting import given
 from batik_vector.geometry.curves.base import Curve, knots_of, points_at
 from batik_vector.geometry.sampling import REFINE_SHARE, Array, Indices, Points, deviation, refine, thin
 from batik_vector.values import frozen
@@ -24,6 +27,8 @@ JOINED = 1e-9
 
 LEAST_LEAP = 1e-6
 """Steps of less than this share of a curve's size are not looked into: they show on no cloth."""
+
+TOLERANCES = 1e-12, 1e12
 
 HALVINGS = 40
 KEPT = 0.9
@@ -62,6 +67,9 @@ def trace(curve: Curve, tolerance: float | Callable[[Points], Array]) -> Trace:
         GeometryError: where the curve jumps, or does not give finite points in the shape asked for.
         TooLargeError: where it would need too many vertices.
     """
+    given(curve, Curve, "curve")
+    if not callable(tolerance):
+        tolerance = given(tolerance, Annotated[float, Between(*TOLERANCES)], "tolerance")
     t, points = _sample(curve, tolerance)
     loops = curve.loops()
     strand = _closed(points) if curve.closed else points

@@ -8,7 +8,8 @@ from typing import Annotated, ClassVar
 import numpy as np
 
 from batik_vector.errors import GeometryError
-from batik_vector.fields import Between, Says, Text, check
+from batik_vector.fields import Between, Says, Text
+from batik_vector.fitting import check
 from batik_vector.geometry.maps.affine import IDENTITY, Affine, unit_power
 from batik_vector.geometry.maps.affines import Affines, turns
 from batik_vector.tiling.layouts.base import Bend, Layout, Pair
@@ -90,13 +91,6 @@ class RosetteLayout(Layout):
     shift: Annotated[Pair, Says("move of the motif away from the centre")] = (1.0, 0.0)
     turn: Annotated[float, Between(-360, 360), Says("degrees the motif is turned first")] = 0.0
     axis: Annotated[float, Between(-360, 360), Says("direction of the first mirror in degrees")] = 0.0
-
-    def __post_init__(self) -> None:
-        check(self)
-        try:
-            object.__setattr__(self, "group", parse_rosette(self.group))
-        except ValueError as error:
-            raise GeometryError(f'group "{self.group}": {error}') from None
 
     def images(self, cell: tuple[float, float]) -> Affines | Bend:
         """n images, or 2n with the mirrored ones after each turned one."""

@@ -7,7 +7,8 @@ from functools import cached_property
 from typing import Annotated, TypeAlias
 
 from batik_vector.errors import GeometryError
-from batik_vector.fields import Between, OneOf, Says, check
+from batik_vector.fields import Between, OneOf, Says
+from batik_vector.fitting import check
 from batik_vector.geometry.ifs import Ifs
 from batik_vector.geometry.maps import VARIATIONS
 from batik_vector.geometry.maps.affine import IDENTITY, Affine
@@ -71,6 +72,9 @@ class MapSpec:
     pre: Annotated[Spot, Says("affine map before the variations")] = field(default_factory=Spot)
     terms: Annotated[tuple[Term, ...], Says("the weighted variations; none is the identity")] = ()
     post: Annotated[Spot, Says("affine map after the variations")] = field(default_factory=Spot)
+
+    def __post_init__(self) -> None:
+        check(self)
 
     def flame(self) -> FlameMap:
         """Return the map itself."""
