@@ -34,7 +34,6 @@ FLOORS: Floors = _floors(
     "_version values patterns",
     "errors units",
     "fields",
-    "fitting",
     "geometry",
     "artwork",
     "tiling export",

@@ -11,7 +11,7 @@ import shapely
 from numpy.typing import NDArray
 
 from batik_vector.artwork.page import Artwork, Geometries, Layer, Overlap
-from batik_vector.fitting import given
+from batik_vector.fields import given
 from batik_vector.geometry.sampling import Points
 from batik_vector.units import GRID_MM, STEPS_PER_MM, nearest_steps, on_grid
 from batik_vector.values import frozen

@@ -15,8 +15,7 @@ from numpy.typing import NDArray
 from shapely.geometry.base import BaseGeometry
 
 from batik_vector.errors import ExportError, GeometryError
-from batik_vector.fields import Between, Converted
-from batik_vector.fitting import check
+from batik_vector.fields import Between, Converted, check
 from batik_vector.geometry.outlines import MM, Outlines, of_polygons, of_polylines
 from batik_vector.units import STEPS_PER_MM
 from batik_vector.values import frozen

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 
-from batik_vector.fitting import check
+from batik_vector.fields import check
 from batik_vector.tiling.symmetry.groups import group
 from batik_vector.values import frozen
 

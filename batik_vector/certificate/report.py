@@ -9,7 +9,7 @@ from dataclasses import asdict, fields
 from typing import Any
 
 from batik_vector.errors import GeometryError
-from batik_vector.fitting import check
+from batik_vector.fields import check
 from batik_vector.values import frozen
 
 Place = tuple[float, float]

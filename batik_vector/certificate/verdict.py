@@ -28,7 +28,7 @@ from batik_vector.certificate.shifts import agreeing_shift, all_events, shift_fa
 from batik_vector.certificate.slivers import sliver_fault, slivers
 from batik_vector.certificate.symmetry import STRETCH, found_group
 from batik_vector.certificate.tangents import Turns, border_turns, line_turns, turn_faults
-from batik_vector.fitting import given
+from batik_vector.fields import given
 from batik_vector.tiling.symmetry.groups import group
 from batik_vector.units import STEPS_PER_MM, format_mm
 

@@ -16,8 +16,7 @@ from batik_vector._version import __version__
 from batik_vector.artwork import Artwork, Cell, DropAxis, Ink, Provenance, violations
 from batik_vector.compiling.placements import Placed, place
 from batik_vector.errors import Fault, RecipeError, blame
-from batik_vector.fields import Instead
-from batik_vector.fitting import given
+from batik_vector.fields import Instead, given
 from batik_vector.recipe.model import Recipe
 from batik_vector.tiling.torus import seams
 from batik_vector.tiling.torus.torus import to_step_grid

@@ -31,8 +31,7 @@ from batik_vector.export.options import (
     Profile,
     SvgOptions,
 )
-from batik_vector.fields import Instead
-from batik_vector.fitting import given
+from batik_vector.fields import Instead, given
 from batik_vector.values import frozen
 
 if TYPE_CHECKING:

@@ -5,8 +5,7 @@ from __future__ import annotations
 import enum
 from typing import Annotated
 
-from batik_vector.fields import Between, Length, Says
-from batik_vector.fitting import check
+from batik_vector.fields import Between, Length, Says, check
 from batik_vector.values import frozen
 
 

@@ -14,8 +14,7 @@ from typing import Annotated
 import numpy as np
 
 from batik_vector.errors import GeometryError, TooLargeError
-from batik_vector.fields import Between, Says
-from batik_vector.fitting import check
+from batik_vector.fields import Between, Says, check
 from batik_vector.geometry.coincidence import distinct, drawn_once
 from batik_vector.geometry.maps.affine import IDENTITY, SIMILAR, Affine
 from batik_vector.geometry.maps.affines import Affines

@@ -7,8 +7,7 @@ from collections.abc import Sequence
 from typing import Annotated, TypeAlias
 
 from batik_vector.errors import GeometryError, blame
-from batik_vector.fields import Between, Length, Says, Text
-from batik_vector.fitting import check
+from batik_vector.fields import Between, Length, Says, Text, check
 from batik_vector.recipe.placement import Placement
 from batik_vector.tiling.symmetry.friezes import FRIEZE_NAMES, frieze
 from batik_vector.units import to_steps

@@ -13,7 +13,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from batik_vector.errors import Fault, RecipeError
-from batik_vector.fitting import given
+from batik_vector.fields import given
 from batik_vector.recipe.model import Recipe
 from batik_vector.recipe.reading.builder import UnsureError, built
 from batik_vector.recipe.reading.limits import MAX_DEPTH, deep_key, odd_numbers

@@ -8,8 +8,7 @@ from typing import Annotated, TypeAlias
 
 from batik_vector.artwork import Overlap
 from batik_vector.errors import Fault, GeometryError, RecipeError
-from batik_vector.fields import HIDDEN, Between, Colour, Length, OneOf, Says
-from batik_vector.fitting import check
+from batik_vector.fields import HIDDEN, Between, Colour, Length, OneOf, Says, check
 from batik_vector.recipe.border import BorderSpec
 from batik_vector.recipe.motif import MOTIFS, Motif, Treatment
 from batik_vector.recipe.outputs import AnyOutput, OutputSpec

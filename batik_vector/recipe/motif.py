@@ -17,8 +17,7 @@ import numpy as np
 import shapely
 
 from batik_vector.errors import GeometryError, unknown_name
-from batik_vector.fields import Between, Length, OneOf, Says
-from batik_vector.fitting import check
+from batik_vector.fields import Between, Length, OneOf, Says, check
 from batik_vector.geometry.curves import CURVES, Circle, Curve, Hypocycloid, Petal, Rose, Superellipse, trace
 from batik_vector.geometry.ifs import distinct
 from batik_vector.geometry.maps.affine import IDENTITY, Affine

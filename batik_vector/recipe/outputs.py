@@ -8,8 +8,7 @@ from dataclasses import fields
 from typing import Annotated, Any, ClassVar, TypeAlias
 
 from batik_vector.export.options import DxfOptions, PdfOptions, PngOptions, SvgOptions
-from batik_vector.fields import Between, Length, OneOf, Says, Text
-from batik_vector.fitting import check
+from batik_vector.fields import Between, Length, OneOf, Says, Text, check
 from batik_vector.values import frozen
 
 _FILE_WORD = r"[\w][\w .+-]{0,79}(?<![ .])\Z"

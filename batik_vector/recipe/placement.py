@@ -6,8 +6,7 @@ from dataclasses import field
 from typing import Annotated, TypeAlias
 
 from batik_vector.errors import GeometryError
-from batik_vector.fields import Between, Length, Names, Says, Text
-from batik_vector.fitting import check
+from batik_vector.fields import Between, Length, Names, Says, Text, check
 from batik_vector.recipe.references import quoted
 from batik_vector.tiling.layouts import AnyLayout, Single, Stripes, Toss
 from batik_vector.tiling.symmetry.groups import GROUP_PATTERN, group_name

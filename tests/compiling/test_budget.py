@@ -15,12 +15,13 @@ from pathlib import Path
 
 import pytest
 
-from batik_vector import fields, fitting
+from batik_vector import fields
 from batik_vector.artwork import Artwork, Ink
 from batik_vector.compiling import placements
 from batik_vector.compiling.compiler import compile_recipe
 from batik_vector.compiling.placements import place
 from batik_vector.export import write_artwork
+from batik_vector.fields import fitting
 from batik_vector.geometry.curves import CURVES, Curve, trace
 from batik_vector.geometry.maps.flame import FlameMap
 from batik_vector.recipe import motif

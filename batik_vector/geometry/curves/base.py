@@ -7,7 +7,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from batik_vector.errors import GeometryError
-from batik_vector.fitting import check
+from batik_vector.fields import check
 from batik_vector.geometry.sampling import Array, Points
 
 

@@ -8,8 +8,7 @@ from typing import Annotated
 import numpy as np
 
 from batik_vector.errors import GeometryError
-from batik_vector.fields import Between, Says
-from batik_vector.fitting import check
+from batik_vector.fields import Between, Says, check
 from batik_vector.geometry.curves.base import Curve
 from batik_vector.geometry.sampling import Array, Points
 from batik_vector.values import frozen

@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from batik_vector.errors import GeometryError
-from batik_vector.fields import Between
-from batik_vector.fitting import given
+from batik_vector.fields import Between, given
 from batik_vector.geometry.curves.base import Curve, knots_of, points_at
 from batik_vector.geometry.sampling import REFINE_SHARE, Array, Indices, Points, deviation, refine, thin
 from batik_vector.values import frozen

@@ -8,8 +8,7 @@ from typing import Annotated, ClassVar, Literal
 import numpy as np
 
 from batik_vector.errors import GeometryError
-from batik_vector.fields import Between, Says
-from batik_vector.fitting import check
+from batik_vector.fields import Between, Says, check
 from batik_vector.geometry.maps.affine import Complexes, unit_power
 from batik_vector.geometry.maps.base import Variation
 from batik_vector.geometry.sampling import Array

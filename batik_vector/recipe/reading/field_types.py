@@ -11,8 +11,7 @@ import typing
 from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, Literal, Union
 
-from batik_vector.fields import HIDDEN, Between, LengthUnit, OneOf, Says, Several, Text, hint_of
-from batik_vector.fitting import bound
+from batik_vector.fields import HIDDEN, Between, LengthUnit, OneOf, Says, Several, Text, bound, hint_of
 from batik_vector.units import format_mm
 from batik_vector.values import frozen
 

@@ -6,8 +6,7 @@ import enum
 from typing import Annotated, TypeAlias
 
 from batik_vector.artwork import Cell
-from batik_vector.fields import Between, Length, Says
-from batik_vector.fitting import check
+from batik_vector.fields import Between, Length, Says, check
 from batik_vector.units import to_steps
 from batik_vector.values import frozen
 

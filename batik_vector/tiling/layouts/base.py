@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, ClassVar, TypeAlias
 
-from batik_vector.fields import Between
-from batik_vector.fitting import check
+from batik_vector.fields import Between, check
 from batik_vector.geometry.ifs import Ifs
 from batik_vector.geometry.maps.affine import Affine
 from batik_vector.geometry.maps.affines import Affines

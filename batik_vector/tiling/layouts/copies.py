@@ -8,8 +8,7 @@ from typing import Annotated, ClassVar
 import numpy as np
 
 from batik_vector.errors import GeometryError
-from batik_vector.fields import Between, Says, Text
-from batik_vector.fitting import check
+from batik_vector.fields import Between, Says, Text, check
 from batik_vector.geometry.maps.affine import IDENTITY, Affine, unit_power
 from batik_vector.geometry.maps.affines import Affines, turns
 from batik_vector.tiling.layouts.base import Bend, Layout, Pair

@@ -11,8 +11,7 @@ import math
 from typing import Annotated, ClassVar
 
 from batik_vector.errors import GeometryError
-from batik_vector.fields import Between, Length, Says
-from batik_vector.fitting import check
+from batik_vector.fields import Between, Length, Says, check
 from batik_vector.tiling.layouts.base import Layout
 from batik_vector.values import frozen
 

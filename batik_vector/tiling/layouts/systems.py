@@ -7,8 +7,7 @@ from functools import cached_property
 from typing import Annotated, TypeAlias
 
 from batik_vector.errors import GeometryError
-from batik_vector.fields import Between, OneOf, Says
-from batik_vector.fitting import check
+from batik_vector.fields import Between, OneOf, Says, check
 from batik_vector.geometry.ifs import Ifs
 from batik_vector.geometry.maps import VARIATIONS
 from batik_vector.geometry.maps.affine import IDENTITY, Affine

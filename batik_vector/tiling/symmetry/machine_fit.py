@@ -12,8 +12,7 @@ from typing import Annotated
 
 from batik_vector.artwork import Cell
 from batik_vector.errors import Fault, RecipeError
-from batik_vector.fields import Between, Length, Says
-from batik_vector.fitting import check
+from batik_vector.fields import Between, Length, Says, check
 from batik_vector.units import STEPS_PER_MM, format_mm
 from batik_vector.values import frozen
 

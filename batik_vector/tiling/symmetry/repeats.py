@@ -10,8 +10,7 @@ from typing import Annotated
 
 from batik_vector.artwork import Cell, DropAxis
 from batik_vector.errors import Fault, GeometryError, RecipeError, nearest
-from batik_vector.fields import Between, Length, Says, Text
-from batik_vector.fitting import check, shown
+from batik_vector.fields import Between, Length, Says, Text, check, shown
 from batik_vector.tiling.symmetry.groups import GROUP_PATTERN, GROUPS, Group, Kind, group, group_names
 from batik_vector.tiling.symmetry.machine_fit import Fit, per_cent, repeats_to_fill
 from batik_vector.tiling.symmetry.orbits import TRIVIAL, Orbit, Shift

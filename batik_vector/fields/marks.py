@@ -1,8 +1,8 @@
 """Bounds, units and help of a parameter, written once beside the attribute.
 
 ``n: Annotated[int, Between(1, 48), Says("petals", "n")] = 4`` serves the check when a value is built in
-Python (:mod:`batik_vector.fitting`), the check of a recipe, the schema, and the help. Nothing here imports
-pydantic: its hooks are methods that it looks for by name, so the geometry floor stays free of it.
+Python (:mod:`~batik_vector.fields.fitting`), the check of a recipe, the schema, and the help. Nothing here
+imports pydantic: its hooks are methods that it looks for by name, so the geometry floor stays free of it.
 """
 
 from __future__ import annotations

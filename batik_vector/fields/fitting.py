@@ -18,7 +18,7 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import Annotated, Any, Literal, TypeAlias
 
 from batik_vector.errors import BatikError, GeometryError, unknown_name
-from batik_vector.fields import Between, Converted, Instead, LengthUnit, OneOf, Several, Text, hint_of
+from batik_vector.fields.marks import Between, Converted, Instead, LengthUnit, OneOf, Several, Text, hint_of
 from batik_vector.units import parse_length
 from batik_vector.values import defaults
 

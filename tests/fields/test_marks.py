@@ -13,8 +13,7 @@ import pytest
 
 from batik_vector import InkSpec, Placement, Recipe, TileSpec, compile_recipe
 from batik_vector.errors import GeometryError
-from batik_vector.fields import Between, Length, Says, hint_of
-from batik_vector.fitting import check, given
+from batik_vector.fields import Between, Length, Says, check, given, hint_of
 from batik_vector.recipe.reading.field_types import Hint, members
 from batik_vector.tiling.layouts import Ring
 from batik_vector.values import frozen
