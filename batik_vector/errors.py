@@ -59,7 +59,7 @@ class UnknownNameError(RecipeError):
 
 
 class GeometryError(BatikError, ValueError):
-    """A shape or a map that cannot be built from the numbers given."""
+    """A shape, a map or another value that cannot be built from what is given."""
 
 
 class TornRingError(GeometryError):

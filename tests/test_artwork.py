@@ -1,4 +1,4 @@
-"""The normal form: every rule at the head of artwork.py is found broken when it is."""
+"""The normal form: every rule at the head of the artwork is found broken when it is."""
 
 from __future__ import annotations
 
@@ -8,20 +8,10 @@ import numpy as np
 import pytest
 import shapely
 
-from batik_vector.artwork import Artwork, Cell, Ink, Layer, Overlap, violations
+from batik_vector.artwork import Artwork, Cell, Layer, Overlap, violations
 from batik_vector.compiling.compiler import inspect
 
-INK = Ink("wax", "#f4efe2")
-SQUARE = shapely.box(1, 1, 4, 4)
-
-
-def artwork(*areas: shapely.Geometry, lines: tuple[shapely.Geometry, ...] = (), ink: Ink = INK) -> Artwork:
-    polygons = shapely.orient_polygons(np.array(areas, dtype=object)) if areas else np.empty(0, object)
-    return Artwork("test", Cell(10_000, 10_000), (Layer(ink, polygons, np.array(lines, dtype=object)),))
-
-
-def raw(area: shapely.Geometry) -> Artwork:
-    return Artwork("test", Cell(10_000, 10_000), (Layer(INK, np.array([area], dtype=object)),))
+from .broken_artworks import BROKEN, INK, SQUARE, artwork, raw
 
 
 def test_a_sound_artwork_has_no_violations() -> None:
@@ -31,32 +21,7 @@ def test_a_sound_artwork_has_no_violations() -> None:
     assert sound.vertex_count == 12
 
 
-@pytest.mark.parametrize(
-    ("broken", "words"),
-    [
-        (raw(shapely.box(1, 1, 11, 4)), "outside the cell"),
-        (raw(shapely.box(-0.001, 1, 4, 4)), "outside the cell"),
-        (raw(shapely.Polygon([(1, 1), (4, 4), (4, 1), (1, 4)])), "invalid"),
-        (raw(shapely.box(1, 1, 4, 4, ccw=False)), "clockwise"),
-        (raw(shapely.box(1.0005, 1, 4, 4)), "off the 1 µm grid"),
-        (raw(shapely.Polygon([(1, 1), (np.inf, 1), (4, 4)])), "not finite"),
-        (raw(shapely.Polygon()), "empty"),
-        (raw(shapely.Point(1, 1)), "no polygon"),
-        (
-            raw(shapely.Polygon([(1, 1), (4, 1), (4, 4)], [[(2, 1.5), (3, 1.5), (3, 2)]])),
-            "hole runs anticlockwise",
-        ),
-        (artwork(SQUARE, shapely.box(3, 3, 5, 5)), "1 pairs of areas overlap"),
-        (artwork(lines=(shapely.LineString([(1, 1), (1, 1), (2, 2)]),)), "length zero"),
-        (
-            artwork(
-                lines=(shapely.LineString([(1, 1), (2, 2)]), shapely.LineString([(3, 3), (2, 2), (1, 1)]))
-            ),
-            "drawn twice",
-        ),
-        (replace(artwork(SQUARE), layers=artwork(SQUARE).layers * 2), 'two layers named "wax"'),
-    ],
-)
+@pytest.mark.parametrize(("broken", "words"), BROKEN)
 def test_every_broken_rule_is_found(broken: Artwork, words: str) -> None:
     assert any(words in found for found in violations(broken)), violations(broken)
 

@@ -53,7 +53,7 @@ WINGS: dict[str, Floors] = {
 }
 """The rooms within a room, likewise."""
 
-DOORBELL = ("batik_vector.artwork", "batik_vector.export.svg")
+DOORBELL = ("batik_vector.artwork.page", "batik_vector.export.svg")
 """The one import that runs upward, inside a function: a notebook asks an artwork for its picture."""
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 
+from batik_vector.fields import check
 from batik_vector.tiling.symmetry.groups import group
 from batik_vector.values import frozen
 
@@ -76,6 +77,7 @@ class Asked:
     stretch: float = 0.0
 
     def __post_init__(self) -> None:
+        check(self)
         object.__setattr__(self, "name", group(self.name).name)
 
     def allows(self, found: str) -> bool:

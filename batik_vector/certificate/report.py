@@ -9,6 +9,7 @@ from dataclasses import asdict, fields
 from typing import Any
 
 from batik_vector.errors import GeometryError
+from batik_vector.fields import check
 from batik_vector.values import frozen
 
 Place = tuple[float, float]
@@ -44,6 +45,8 @@ class Kind(enum.StrEnum):
     """The drawing has another symmetry group than was asked for."""
     STRIPING = "striping"
     """Ink is spread less evenly over columns or rows than was allowed."""
+    FORM = "form"
+    """The artwork breaks the normal form, and is no drawing that was only read."""
 
 
 @frozen(kw_only=True)
@@ -76,6 +79,7 @@ class Limits:
         return self.position / 8
 
     def __post_init__(self) -> None:
+        check(self)
         for name, value in vars(self).items():
             if value is not None and not 0 <= value < math.inf:
                 raise GeometryError(f"{name} = {value}, expected a number from 0 on")

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from batik_vector.artwork import Artwork
+from batik_vector.artwork import Artwork, RawArtwork, breaches
 from batik_vector.certificate.crossings import Crossings, area_crossings, break_faults
 from batik_vector.certificate.density import profile, unevenness
 from batik_vector.certificate.drawing import Drawing, InkDrawing, drawing, uncut
@@ -28,6 +28,7 @@ from batik_vector.certificate.shifts import agreeing_shift, all_events, shift_fa
 from batik_vector.certificate.slivers import sliver_fault, slivers
 from batik_vector.certificate.symmetry import STRETCH, found_group
 from batik_vector.certificate.tangents import Turns, border_turns, line_turns, turn_faults
+from batik_vector.fields import given
 from batik_vector.tiling.symmetry.groups import group
 from batik_vector.units import STEPS_PER_MM, format_mm
 
@@ -62,8 +63,10 @@ def certify(
     """Measure the seams of a tile.
 
     Args:
-        artwork: a tile; areas of one ink may overlap, rings be invalid, marks reach beyond the page. What
-            lies beyond the page does not count as drawn, except in a bleed.
+        artwork: a tile. What breaks the normal form is a fault, but in a tile that was read from a foreign
+            file (:class:`~batik_vector.artwork.RawArtwork`): there areas of one ink may overlap, rings be
+            invalid, marks reach beyond the page. What lies beyond the page does not count as drawn, except
+            in a bleed.
         asked: the symmetry group it ought to have, by any accepted name, that and no more; or what is
             asked of it in other words. None only reports the group.
         limits: how much is allowed.
@@ -79,9 +82,14 @@ def certify(
         GeometryError: where a coordinate is not finite.
         UnknownNameError: where the group asked for is none.
     """
+    given(artwork, Artwork, "artwork")
+    given(asked, str | Asked | None, "asked")
+    given(limits, Limits, "limits")
     wanted = Asked(group(asked).name) if isinstance(asked, str) else asked
     tile = drawing(artwork)
     ledger = _Ledger(limits, {ink.ink.name: [] for ink in tile})
+    if not isinstance(artwork, RawArtwork):
+        _check_form(artwork, ledger)
     joints = _check_crossings(tile, artwork, ledger, bodies)
     for ink in tile:
         _check_field(ink, tile, artwork, ledger)
@@ -110,6 +118,13 @@ def certify(
         hints=tuple(hints(ledger.faults, tile, bodies, joints, limits)),
         unmeasured=tuple(unmeasured),
     )
+
+
+def _check_form(artwork: Artwork, ledger: _Ledger) -> None:
+    """Accuse an artwork of what makes it none; what has no place is pointed at in the middle of the page."""
+    middle = artwork.cell.width / 2, artwork.cell.height / 2
+    for breach in breaches(artwork):
+        ledger.accuse(SeamFault(Kind.FORM, breach.ink, breach.where or middle, breach.words, 0.0))
 
 
 def _check_crossings(tile: Drawing, artwork: Artwork, ledger: _Ledger, bodies: Bodies | None) -> list[Joints]:

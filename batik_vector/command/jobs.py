@@ -194,10 +194,13 @@ def made(job: Job, tell: Callable[[str], None]) -> Artwork:
 
 
 def render_output(page: Page, output: OutputSpec, sink: BinaryIO) -> None:
-    """Write a file: a cloth, or the tile repeated or carried beyond its edges as the output asks."""
+    """Write a file: a cloth, or the tile repeated or carried beyond its edges as the output asks.
+
+    What the compiler made is in the normal form, and is not asked again.
+    """
     if isinstance(page, Artwork):
         page = _set_out(page, getattr(output, "repeat", (1, 1)), getattr(output, "bleed", 0.0))
-    write_page(page, sink, output.format, output.options)
+    write_page(page, sink, output.format, output.options, check=False)
 
 
 def _set_out(tile: Artwork, repeat: tuple[int, int], bleed: float) -> Artwork:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import shapely
 
@@ -16,6 +16,7 @@ from batik_vector._version import __version__
 from batik_vector.artwork import Artwork, Cell, DropAxis, Ink, Provenance, violations
 from batik_vector.compiling.placements import Placed, place
 from batik_vector.errors import Fault, RecipeError, blame
+from batik_vector.fields import Instead, given
 from batik_vector.recipe.model import Recipe
 from batik_vector.tiling.torus import seams
 from batik_vector.tiling.torus.torus import to_step_grid
@@ -26,6 +27,8 @@ if TYPE_CHECKING:
     from batik_vector.tiling.cloth.yardage import Yardage
 
 Progress = Callable[[str], None]
+
+READ = Instead("a Recipe: load_recipe(path) reads one from its file, read_recipe(text) from text")
 
 
 def compile_recipe(recipe: Recipe, *, progress: Progress | None = None) -> Artwork:
@@ -39,6 +42,7 @@ def compile_recipe(recipe: Recipe, *, progress: Progress | None = None) -> Artwo
         RecipeError: naming the key at fault.
         SeamError: where no clean seam is found.
     """
+    given(recipe, Annotated[Recipe, READ], "recipe")
     tell = progress or (lambda stage: None)
     inks = {name: Ink(name, spec.colour, spec.width, spec.overlap) for name, spec in recipe.ink.items()}
     unit = recipe.tiling.unit()
@@ -92,6 +96,8 @@ def compile_cloth(
     from batik_vector.compiling.borders import compile_borders
     from batik_vector.tiling.cloth.yardage import compile_yardage
 
+    given(recipe, Annotated[Recipe, READ], "recipe")
+    given(tile, Artwork | None, "tile")
     spec = recipe.yardage
     if spec is None:
         raise RecipeError([Fault("missing: the recipe says of no cloth how large it is", "yardage")])

@@ -3,7 +3,8 @@
     write_artwork(artwork, "kawung.dxf")
     write_artwork(artwork, "kawung.svg", options=SvgOptions(profile=Profile.COMPACT))
 
-What is drawn is a :class:`~batik_vector.artwork.Page`: an artwork, or metres of cloth that come in pieces.
+What is drawn is a :class:`~batik_vector.artwork.Page`: an artwork, or metres of cloth that come in pieces. An
+artwork that is not in the normal form is refused; ``check=False`` writes it as it is.
 
 A new format is a module with ``write(page, sink, options)`` and ``render(page, options) -> bytes``, an
 options class in :mod:`batik_vector.export.options`, and a line in ``FORMATS``.
@@ -16,7 +17,7 @@ from collections.abc import Mapping
 from importlib import import_module
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import TYPE_CHECKING, Annotated, Any, BinaryIO
 
 from batik_vector.errors import ExportError, UnknownNameError
 from batik_vector.export.files import write_all_whole, write_whole
@@ -30,6 +31,7 @@ from batik_vector.export.options import (
     Profile,
     SvgOptions,
 )
+from batik_vector.fields import Instead, given
 from batik_vector.values import frozen
 
 if TYPE_CHECKING:
@@ -95,6 +97,7 @@ def format_of(path: str | os.PathLike[str]) -> str:
     Raises:
         UnknownNameError: where no format has that suffix.
     """
+    given(path, str | os.PathLike, "path")
     suffix = Path(path).suffix.lower()
     for name, known in FORMATS.items():
         if known.suffix == suffix:
@@ -102,40 +105,46 @@ def format_of(path: str | os.PathLike[str]) -> str:
     raise UnknownNameError(suffix.removeprefix(".") or Path(path).name, list(FORMATS), "format")
 
 
-def render(artwork: Page, format: str, options: Any = None) -> bytes:
+def render(artwork: Page, format: str, options: Any = None, *, check: bool = True) -> bytes:
     """Return an artwork, or any other page, as the bytes of a file.
 
     Args:
         artwork: what to write, in the normal form.
         format: a name in ``FORMATS``.
         options: an instance of the format's options class; its defaults when left out.
+        check: whether an artwork that breaks the normal form is refused. A page that comes in pieces is not
+            looked at.
 
     Raises:
         UnknownNameError: where the format is unknown.
-        ExportError: where the artwork cannot be written in it, or the options are another format's.
+        ExportError: where the artwork breaks the normal form or cannot be written in the format, or the
+            options are another format's.
     """
     chosen, options = _chosen(format, options)
+    _refuse_unsound(artwork, check)
     return chosen.render(artwork, options)
 
 
-def write_page(page: Page, sink: BinaryIO, format: str, options: Any = None) -> None:
-    """Write a page into a sink, piece by piece: memory does not grow with the page.
+def write_page(page: Page, sink: BinaryIO, format: str, options: Any = None, *, check: bool = True) -> None:
+    """Write a page into a sink, piece by piece: memory does not grow with the page, but to check an artwork.
 
     Args:
         page: what to write, in the normal form.
         sink: open for writing and seeking.
         format: a name in ``FORMATS``.
-        options: see :func:`render`.
+        options, check: see :func:`render`.
 
     Raises:
         UnknownNameError: where the format is unknown.
-        ExportError: where the page cannot be written in it, or the options are another format's.
+        ExportError: where the page cannot be written; see :func:`render`.
     """
     chosen, options = _chosen(format, options)
+    _refuse_unsound(page, check)
     chosen.write(page, sink, options)
 
 
 def _chosen(format: str, options: Any) -> tuple[Format, Any]:
+    given(format, str, "format")
     if format not in FORMATS:
         raise UnknownNameError(format, list(FORMATS), "format")
     chosen = FORMATS[format]
@@ -148,8 +157,28 @@ def _chosen(format: str, options: Any) -> tuple[Format, Any]:
     return chosen, options
 
 
+def _refuse_unsound(page: Page, check: bool) -> None:
+    """Raise where a page is none or, if that is to be checked, an artwork breaks the normal form."""
+    # Formats are named in help, too, which does without all that geometry needs.
+    from batik_vector.artwork import Artwork, violations
+
+    if not hasattr(type(page), "plates"):
+        given(page, Annotated[Artwork, Instead("an Artwork: compile_recipe(recipe) makes one")], "artwork")
+    broken = violations(page) if check and isinstance(page, Artwork) else []
+    if broken:
+        raise ExportError(
+            f'"{page.title}" breaks the normal form: {"; ".join(broken)}. '
+            "Mend it, or write it as it is with check=False"
+        )
+
+
 def write_artwork(
-    artwork: Page, path: str | os.PathLike[str], format: str | None = None, options: Any = None
+    artwork: Page,
+    path: str | os.PathLike[str],
+    format: str | None = None,
+    options: Any = None,
+    *,
+    check: bool = True,
 ) -> Path:
     """Write an artwork, or any other page, to a file, whole or not at all.
 
@@ -157,15 +186,17 @@ def write_artwork(
         artwork: what to write, in the normal form.
         path: where to.
         format: a name in ``FORMATS``; by the path's suffix when left out.
-        options: see :func:`render`.
+        options, check: see :func:`render`.
 
     Returns:
         The path.
 
     Raises:
         UnknownNameError: where the format is unknown.
-        ExportError: where the artwork or the file cannot be written.
+        ExportError: where the artwork or the file cannot be written; see :func:`render`.
     """
+    given(path, str | os.PathLike, "path")
     chosen, options = _chosen(format or format_of(path), options)
+    _refuse_unsound(artwork, check)
     write_whole(path, lambda sink: chosen.write(artwork, sink, options))
     return Path(path)

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import dataclasses
 import enum
-from typing import Annotated, Any
+from typing import Annotated
 
-from batik_vector.errors import UnknownNameError
 from batik_vector.fields import Between, Length, Says, check
 from batik_vector.values import frozen
 
@@ -47,29 +45,6 @@ class DxfVersion(enum.StrEnum):
     """AC1009: POLYLINE and VERTEX, no units. For old cutters."""
 
 
-CHOICES: dict[str, type[enum.StrEnum]] = {
-    "profile": Profile,
-    "curves": Curves,
-    "inks": PdfInks,
-    "version": DxfVersion,
-}
-
-
-def _settle(options: Any) -> None:
-    """Turn words into choices, so that ``curves="bezier"`` will do, and check the numbers.
-
-    Raises:
-        UnknownNameError: for a word that is no choice.
-        GeometryError: for a number out of bounds.
-    """
-    for name in CHOICES.keys() & {field.name for field in dataclasses.fields(options)}:
-        word, choices = getattr(options, name), CHOICES[name]
-        if word not in tuple(choices):
-            raise UnknownNameError(str(word), list(choices), name)
-        object.__setattr__(options, name, choices(word))
-    check(options)
-
-
 @frozen
 class SvgOptions:
     """Options of SVG."""
@@ -79,14 +54,13 @@ class SvgOptions:
         Curves.POLYLINE
     )
     curve_tolerance: Annotated[
-        Length | None,
-        Between(0.0005, 10),
+        Annotated[Length, Between(0.0005, 10)] | None,
         Says("how far fitted curves may stray; the artwork's tolerance if unset"),
     ] = None
     cloth: Annotated[bool, Says("show the cloth as a layer %cloth, which plotters skip")] = True
 
     def __post_init__(self) -> None:
-        _settle(self)
+        check(self)
 
 
 @frozen
@@ -97,8 +71,7 @@ class PdfOptions:
         Curves.POLYLINE
     )
     curve_tolerance: Annotated[
-        Length | None,
-        Between(0.0005, 10),
+        Annotated[Length, Between(0.0005, 10)] | None,
         Says("how far fitted curves may stray; the artwork's tolerance if unset"),
     ] = None
     cloth: Annotated[bool, Says("show the cloth as a layer of its own")] = True
@@ -107,7 +80,7 @@ class PdfOptions:
     )
 
     def __post_init__(self) -> None:
-        _settle(self)
+        check(self)
 
 
 @frozen
@@ -117,7 +90,7 @@ class DxfOptions:
     version: Annotated[DxfVersion, Says("R2000, or R12 for old cutters")] = DxfVersion.R2000
 
     def __post_init__(self) -> None:
-        _settle(self)
+        check(self)
 
 
 @frozen
@@ -128,4 +101,4 @@ class PngOptions:
     cloth: Annotated[bool, Says("paint the cloth; without it the ground is transparent")] = True
 
     def __post_init__(self) -> None:
-        _settle(self)
+        check(self)

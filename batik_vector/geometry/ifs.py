@@ -13,9 +13,8 @@ from typing import Annotated
 
 import numpy as np
 
-from batik_vector import fields
 from batik_vector.errors import GeometryError, TooLargeError
-from batik_vector.fields import Between, Says
+from batik_vector.fields import Between, Says, check
 from batik_vector.geometry.coincidence import distinct, drawn_once
 from batik_vector.geometry.maps.affine import IDENTITY, SIMILAR, Affine
 from batik_vector.geometry.maps.affines import Affines
@@ -51,7 +50,7 @@ class Ifs:
     level: Annotated[int, Between(0, 100_000), Says("how often the maps are applied")] = 1
 
     def __post_init__(self) -> None:
-        fields.check(self)
+        check(self)
         if not self.maps:
             raise GeometryError("an iterated function system needs at least one map")
 

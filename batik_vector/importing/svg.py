@@ -14,7 +14,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from batik_vector.artwork import Artwork, Cell, DropAxis
+from batik_vector.artwork import Artwork, Cell, DropAxis, RawArtwork
 from batik_vector.errors import GeometryError, TooLargeError
 from batik_vector.importing.bodies import bodies_on_rim
 from batik_vector.importing.clips import clipped
@@ -105,7 +105,7 @@ def read_svg(
     bodies = bodies_on_rim(marks, cell, tolerance)
     layers, cloth = layers_of(document, marks, cell, bleed, ours)
     _page_notes(document, page, cell, bleed)
-    artwork = Artwork(_title(document), cell, layers, cloth, tolerance, bleed)
+    artwork = RawArtwork(_title(document), cell, layers, cloth, tolerance, bleed)
     curved = any((shape.outline.kinds == CURVE).any() for shape in shapes)
     notes, unmeasured = tuple(document.notes), tuple(document.unmeasured)
     return Reading(artwork, (page.width, page.height), notes, ours, curved, bodies, unmeasured)

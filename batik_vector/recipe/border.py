@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import Annotated, TypeAlias
 
 from batik_vector.errors import GeometryError, blame
-from batik_vector.fields import Between, Length, Says, Text, check, choice
+from batik_vector.fields import Between, Length, Says, Text, check
 from batik_vector.recipe.placement import Placement
 from batik_vector.tiling.symmetry.friezes import FRIEZE_NAMES, frieze
 from batik_vector.units import to_steps
@@ -115,17 +115,6 @@ class BorderSpec:
 
     def __post_init__(self) -> None:
         check(self)
-        try:
-            object.__setattr__(self, "frieze", _checked_frieze(self.frieze))
-        except ValueError as error:
-            raise GeometryError(str(error)) from None
-        for name, kind, what in (
-            ("corner", Corner, "corner"),
-            ("facing", Facing, "facing"),
-            ("ends", Ends, "end"),
-        ):
-            object.__setattr__(self, name, choice(kind, getattr(self, name), what))
-        object.__setattr__(self, "sides", tuple(choice(ClothSide, side, "side") for side in self.sides))
         self._refuse_contradictions()
 
     def _refuse_contradictions(self) -> None:

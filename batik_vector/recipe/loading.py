@@ -13,6 +13,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from batik_vector.errors import Fault, RecipeError
+from batik_vector.fields import given
 from batik_vector.recipe.model import Recipe
 from batik_vector.recipe.reading.builder import UnsureError, built
 from batik_vector.recipe.reading.limits import MAX_DEPTH, deep_key, odd_numbers
@@ -32,6 +33,7 @@ def load_recipe(path: str | os.PathLike[str], overrides: Sequence[str] = ()) -> 
     Raises:
         RecipeError: with everything that is wrong.
     """
+    given(path, str | os.PathLike, "path")
     return read_recipe(read_text(path), source=os.fspath(path), overrides=overrides)
 
 
@@ -46,6 +48,9 @@ def read_recipe(text: str, source: str = "recipe", overrides: Sequence[str] = ()
     Raises:
         RecipeError: with everything that is wrong.
     """
+    given(text, str, "text")
+    given(source, str, "source")
+    given(overrides, tuple[str, ...], "overrides")
     written = text = text.replace("\r\n", "\n")
     data = _tables(text, source)
     changes: list[Override] = []

@@ -8,17 +8,7 @@ from typing import Annotated, TypeAlias
 
 from batik_vector.artwork import Overlap
 from batik_vector.errors import Fault, GeometryError, RecipeError
-from batik_vector.fields import (
-    HIDDEN,
-    Between,
-    Colour,
-    Length,
-    OneOf,
-    Says,
-    check,
-    choice,
-    parse_colour,
-)
+from batik_vector.fields import HIDDEN, Between, Colour, Length, OneOf, Says, check
 from batik_vector.recipe.border import BorderSpec
 from batik_vector.recipe.motif import MOTIFS, Motif, Treatment
 from batik_vector.recipe.outputs import AnyOutput, OutputSpec
@@ -41,8 +31,6 @@ class InkSpec:
 
     def __post_init__(self) -> None:
         check(self)
-        object.__setattr__(self, "colour", _colour(self.colour))
-        object.__setattr__(self, "overlap", choice(Overlap, self.overlap, "overlap"))
 
 
 @frozen(kw_only=True)
@@ -52,14 +40,7 @@ class ClothSpec:
     colour: Annotated[Colour, Says("colour on screen")] = "#ffffff"
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "colour", _colour(self.colour))
-
-
-def _colour(text: str) -> str:
-    try:
-        return parse_colour(text)
-    except ValueError as error:
-        raise GeometryError(f'colour = "{text}", {error}') from None
+        check(self)
 
 
 @frozen(kw_only=True)

@@ -17,7 +17,7 @@ import numpy as np
 import shapely
 
 from batik_vector.errors import GeometryError, unknown_name
-from batik_vector.fields import Between, Length, OneOf, Says, check, choice
+from batik_vector.fields import Between, Length, OneOf, Says, check
 from batik_vector.geometry.curves import CURVES, Circle, Curve, Hypocycloid, Petal, Rose, Superellipse, trace
 from batik_vector.geometry.ifs import distinct
 from batik_vector.geometry.maps.affine import IDENTITY, Affine
@@ -65,9 +65,6 @@ class Dress:
 
     def __post_init__(self) -> None:
         check(self)
-        # Python may say "line" for Treatment.LINE, as recipes do.
-        object.__setattr__(self, "treatment", choice(Treatment, self.treatment, "treatment"))
-        object.__setattr__(self, "fill", choice(FillRule, self.fill, "fill rule"))
 
 
 @frozen(kw_only=True)
@@ -202,6 +199,7 @@ class Flower:
     order: Annotated[tuple[str, ...], Says("its elements, bottom first")] = FLOWER_ORDER
 
     def __post_init__(self) -> None:
+        check(self)
         for name in self.order:
             if name not in FLOWER_ORDER:
                 raise GeometryError(unknown_name(name, FLOWER_ORDER, "element of a flower"))
@@ -235,6 +233,7 @@ class Rosette:
     elements: Annotated[tuple[Element, ...], Says("the elements, bottom first")]
 
     def __post_init__(self) -> None:
+        check(self)
         if not self.elements:
             raise GeometryError("the rosette has no elements")
 

@@ -7,9 +7,8 @@ import re
 from dataclasses import fields
 from typing import Annotated, Any, ClassVar, TypeAlias
 
-from batik_vector.errors import GeometryError
 from batik_vector.export.options import DxfOptions, PdfOptions, PngOptions, SvgOptions
-from batik_vector.fields import Between, Length, OneOf, Says, Text, check, choice
+from batik_vector.fields import Between, Length, OneOf, Says, Text, check
 from batik_vector.values import frozen
 
 _FILE_WORD = r"[\w][\w .+-]{0,79}(?<![ .])\Z"
@@ -57,12 +56,6 @@ class OutputSpec:
 
     def __post_init__(self) -> None:
         check(self)
-        if self.piece is not None:
-            object.__setattr__(self, "piece", choice(Piece, self.piece, "piece"))
-        try:
-            parse_file_word(self.name)
-        except ValueError as error:
-            raise GeometryError(f'name = "{self.name}", {error}') from None
 
     @property
     def options(self) -> Any:

@@ -6,10 +6,10 @@ from dataclasses import field
 from typing import Annotated, TypeAlias
 
 from batik_vector.errors import GeometryError
-from batik_vector.fields import Between, Length, Names, Says, Text, check, choice
+from batik_vector.fields import Between, Length, Names, Says, Text, check
 from batik_vector.recipe.references import quoted
 from batik_vector.tiling.layouts import AnyLayout, Single, Stripes, Toss
-from batik_vector.tiling.symmetry.groups import GROUP_PATTERN, group, group_name
+from batik_vector.tiling.symmetry.groups import GROUP_PATTERN, group_name
 from batik_vector.tiling.symmetry.spread import Spread
 from batik_vector.values import frozen
 
@@ -59,10 +59,6 @@ class Placement:
 
     def __post_init__(self) -> None:
         check(self)
-        if self.symmetry:
-            group(self.symmetry)
-        if self.region is not None:
-            object.__setattr__(self, "region", choice(Spread, self.region, "region"))
         if self.width is not None and self.scale is not None:
             raise GeometryError("width and scale are both given: expected one of them")
         if self.width is None and self.scale is None:
@@ -73,8 +69,6 @@ class Placement:
 
     def _refuse_contradictions(self) -> None:
         """Raise where the layout cannot do what other keys ask for."""
-        if isinstance(self.motif, list):
-            object.__setattr__(self, "motif", tuple(self.motif))
         if len(self.motifs) != 1 and not isinstance(self.layout, Toss):
             raise GeometryError(f"motif = {self._listed()}: only a toss mixes several, expected one")
         if len(set(self.motifs)) < len(self.motifs):

@@ -14,14 +14,15 @@ import shapely
 from hypothesis import given, seed, settings
 
 from batik_vector import compile_recipe, load_recipe
-from batik_vector.artwork import Artwork, Layer
-from batik_vector.certificate import Certificate, Kind, Limits, certify
+from batik_vector.artwork import Artwork, Ink, Layer, RawArtwork
+from batik_vector.certificate import Certificate, Kind, Limits, certify, pointers
 from batik_vector.errors import GeometryError, UnknownNameError
 from batik_vector.recipe.loading import read_recipe
 from batik_vector.recipe.model import Recipe
 from batik_vector.tiling.cloth.field import with_bleed
 from batik_vector.tiling.welding.sheets import Sheet
 from batik_vector.tiling.welding.stack import assemble
+from tests.broken_artworks import BROKEN
 from tests.certificate.tiles import AREAS, LINES, OVERLAY, PEN, WAX, added, marks, strokes, tile
 from tests.recipes import REPEATS, recipes
 from tests.tiling.test_seamless import compiled, many
@@ -119,7 +120,7 @@ def test_a_plain_tile_passes_with_any_drop(drop: Fraction) -> None:
     assert certificate.exact
 
 
-def foreign(by: float = 0.0) -> Artwork:
+def foreign(by: float = 0.0) -> RawArtwork:
     """The plain tile as another program may write it: whole marks again and again, over the page's edges,
     moved off the grid, one of them in two pieces that overlap, and a bow tie."""
     shifts = [np.array([i * 100.0, j * 80.0]) for i in (-1, 0, 1) for j in (-1, 0, 1)]
@@ -136,7 +137,7 @@ def foreign(by: float = 0.0) -> Artwork:
         Layer(replace(OVERLAY, name="top"), marks(halves)),
         Layer(PEN, lines=strokes(lines)),
     )
-    return Artwork("foreign", tile().cell, layers)
+    return RawArtwork("foreign", tile().cell, layers)
 
 
 @pytest.mark.parametrize("by", [0.0, 1 / 3, 7.0])
@@ -209,3 +210,21 @@ def test_limits_are_what_decides() -> None:
     certificate = certify(tile(), limits=Limits(striping=50), symmetry=False)
     assert {fault.kind for fault in certificate.faults} == {Kind.STRIPING}
     assert certificate.faults[0].amount == pytest.approx(certificate.worst.columns)
+
+
+@pytest.mark.parametrize(
+    ("broken", "words"), [(broken, words) for broken, words in BROKEN if words != "not finite"]
+)
+def test_no_artwork_passes_that_breaks_the_normal_form(broken: Artwork, words: str) -> None:
+    certificate = certify(broken)
+    assert not certificate.passed
+    (fault,) = [fault for fault in certificate.faults if fault.kind == Kind.FORM]
+    assert words in fault.words
+    assert pointers(broken, certificate).layers[-1].ink.name == "check"
+
+
+def test_a_broken_rule_is_told_with_its_ink_and_its_place() -> None:
+    bow_tie = added(tile(), Ink("top", "#000000"), areas=[[(40, 40), (44, 44), (44, 40), (40, 44)]])
+    (fault,) = certify(Artwork("t", bow_tie.cell, bow_tie.layers, borders=bow_tie.borders)).faults
+    assert (fault.kind, fault.ink, fault.where) == (Kind.FORM, "top", (42.0, 42.0))
+    assert certify(bow_tie).passed

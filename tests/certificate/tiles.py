@@ -8,7 +8,7 @@ left and right edges and one up over the others. All of it has straight edges, s
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import fields, replace
 from fractions import Fraction
 from typing import Any
 
@@ -16,7 +16,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from batik_vector.artwork import Artwork, Cell, DropAxis, Geometries, Ink, Layer, Overlap
+from batik_vector.artwork import Artwork, Cell, DropAxis, Geometries, Ink, Layer, Overlap, RawArtwork
 from batik_vector.certificate import Certificate, Kind, SeamFault, certify
 from batik_vector.tiling.welding.sheets import Sheet
 from batik_vector.tiling.welding.stack import assemble
@@ -91,7 +91,12 @@ def vertex_moved(artwork: Artwork, ink: str, at: tuple[float, float], by: tuple[
 
 
 def with_layers(artwork: Artwork, layers: list[Layer]) -> Artwork:
-    return replace(artwork, layers=tuple(layers))
+    return as_read(replace(artwork, layers=tuple(layers)))
+
+
+def as_read(artwork: Artwork) -> RawArtwork:
+    """The tile as if it had been read from a foreign file, which keeps to no form."""
+    return RawArtwork(**{each.name: getattr(artwork, each.name) for each in fields(Artwork)})
 
 
 def only(artwork: Artwork, ink: str, keep: Callable[[Points], bool]) -> Artwork:

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import io
 import os
 import subprocess
 import sys
@@ -8,7 +9,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import shapely
 
+from batik_vector.artwork import Artwork
 from batik_vector.errors import ExportError, GeometryError, UnknownNameError
 from batik_vector.export import (
     FORMATS,
@@ -22,8 +25,10 @@ from batik_vector.export import (
     format_of,
     render,
     write_artwork,
+    write_page,
 )
 from batik_vector.fields import Says
+from tests.broken_artworks import BROKEN, raw
 
 from .drawings import empty, sample
 
@@ -91,7 +96,7 @@ def test_options_are_checked() -> None:
         PngOptions(dpi=0)
     with pytest.raises(GeometryError, match="curve_tolerance"):
         SvgOptions(curve_tolerance=-1.0)
-    with pytest.raises(UnknownNameError, match='unknown curves "beziers": did you mean "bezier"'):
+    with pytest.raises(GeometryError, match='unknown curves "beziers": did you mean "bezier"'):
         SvgOptions(curves="beziers")  # type: ignore[arg-type]
     assert SvgOptions(curves="bezier").curves is Curves.BEZIER  # type: ignore[arg-type]
 
@@ -141,3 +146,29 @@ def test_a_format_imports_only_what_it_needs(format: str, unneeded: str) -> None
     )
     out = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
     assert out.strip() == "[]"
+
+
+@pytest.mark.parametrize(("broken", "words"), BROKEN)
+def test_an_artwork_that_breaks_the_normal_form_is_refused(
+    broken: Artwork, words: str, tmp_path: Path
+) -> None:
+    path = tmp_path / "a.svg"
+    sink = io.BytesIO()
+    for write in (
+        lambda: write_artwork(broken, path),
+        lambda: write_page(broken, sink, "dxf"),
+        lambda: render(broken, "pdf"),
+    ):
+        with pytest.raises(ExportError, match=f'^"test" breaks the normal form: .*{words}.*check=False'):
+            write()
+    assert list(tmp_path.iterdir()) == []
+    assert sink.getvalue() == b""
+
+
+def test_an_artwork_is_written_as_it_is_where_that_is_asked_for(tmp_path: Path) -> None:
+    bow_tie = raw(shapely.Polygon([(1, 1), (4, 4), (4, 1), (1, 4)]))
+    for format in FORMATS:
+        path = write_artwork(bow_tie, tmp_path / f"a.{format}", check=False)
+        sink = io.BytesIO()
+        write_page(bow_tie, sink, format, check=False)
+        assert path.read_bytes() == sink.getvalue() == render(bow_tie, format, check=False)

@@ -15,8 +15,8 @@ import pytest
 import shapely
 from ezdxf.filemanagement import read
 
-from batik_vector import artwork
 from batik_vector.artwork import Artwork, Cell, Ink, Layer, Margins, Overlap
+from batik_vector.artwork import page as pages
 from batik_vector.errors import ExportError, UnsupportedByFormatError
 from batik_vector.export import (
     DxfOptions,
@@ -62,7 +62,7 @@ def test_an_artwork_handed_over_in_pieces_makes_the_same_bytes(
     monkeypatch: pytest.MonkeyPatch, format: str, options: Any, piece: int
 ) -> None:
     whole = [render(page, format, options) for page in (sample(2.0), crowd())]
-    monkeypatch.setattr(artwork, "PIECE", piece)
+    monkeypatch.setattr(pages, "PIECE", piece)
     pieces = list(crowd().areas(0))
     assert len(pieces) > (piece < 700) * 10
     assert [name for each in pieces for name in each.names] == list(crowd().layers[0].area_names)

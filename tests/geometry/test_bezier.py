@@ -6,7 +6,7 @@ import shapely
 
 from batik_vector.errors import GeometryError
 from batik_vector.geometry.bezier import Cubics, fit_cubics
-from batik_vector.geometry.curves.base import Curve, trace
+from batik_vector.geometry.curves import Curve, trace
 from batik_vector.geometry.curves.rose import Rose
 from batik_vector.geometry.curves.superellipse import Superellipse
 from batik_vector.geometry.sampling import Array, Points

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from batik_vector.geometry.curves.base import Curve, Trace, trace
+from batik_vector.geometry.curves.base import Curve
 from batik_vector.geometry.curves.circle import Circle
 from batik_vector.geometry.curves.function import FunctionCurve, polar
 from batik_vector.geometry.curves.harmonic import Parametric, Polar
@@ -12,6 +12,7 @@ from batik_vector.geometry.curves.rose import Petal, Rose
 from batik_vector.geometry.curves.segment import Segment
 from batik_vector.geometry.curves.spiral import Spiral
 from batik_vector.geometry.curves.superellipse import Superellipse
+from batik_vector.geometry.curves.tracing import Trace, trace
 from batik_vector.geometry.curves.wave import Wave
 
 CURVES: dict[str, type[Curve]] = {

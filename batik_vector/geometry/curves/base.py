@@ -1,18 +1,14 @@
-"""What a curve is, and how one is traced."""
+"""What a curve is, and what it must give when it is asked."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
+from batik_vector.errors import GeometryError
 from batik_vector.fields import check
-from batik_vector.geometry.sampling import REFINE_SHARE, Array, Indices, Points, refine, thin
-from batik_vector.values import frozen
-
-LEAST_CORNERS = 6
-"""Vertices that a ring keeps however coarse the tolerance."""
+from batik_vector.geometry.sampling import Array, Points
 
 
 class Curve:
@@ -20,6 +16,8 @@ class Curve:
 
     Curves are frozen dataclasses: comparable values whose fields carry their bounds. A new one
     implements :meth:`at`, and where it has them :meth:`breaks`, :meth:`loops` and :meth:`turns`.
+
+    A ``closed`` curve that ends elsewhere than it begins is closed by a straight edge.
     """
 
     closed: ClassVar[bool] = True
@@ -29,7 +27,7 @@ class Curve:
 
     def at(self, t: Array) -> Points:
         """Return the points at parameters ``t`` (shape (n,), in [0, 1]) as an array of shape (n, 2)."""
-        raise NotImplementedError
+        raise GeometryError(f"{type(self).__name__} says nowhere how it runs: expected a method at(t)")
 
     def breaks(self) -> Array:
         """Return the parameters where sampling must stop: cusps, corners, poles of the parametrisation.
@@ -50,73 +48,47 @@ class Curve:
         return np.zeros(1)
 
 
-@frozen
-class Trace:
-    """A curve as polylines: ``strands`` draw it, ``rings`` bound its region; both use the same vertices.
+def points_at(curve: Curve, t: Array) -> Points:
+    """Return the points of a curve, having seen that they are what :meth:`Curve.at` promises.
 
-    Every strand and ring has shape (n, 2); closed ones repeat their first point at the end.
+    Raises:
+        GeometryError: naming the curve's class, where they are not.
     """
+    points = _numbers(curve, "at(t)", curve.at(t))
+    if points.shape != (len(t), 2):
+        raise _fault(
+            curve, f"at(t) returns shape {points.shape} for t of shape {t.shape}, expected ({len(t)}, 2)"
+        )
+    finite = np.isfinite(points).all(axis=1)
+    if not finite.all():
+        raise _fault(curve, f"at(t) is not finite at t = {t[~finite][0]:g}: it runs through a pole")
+    return points
 
-    strands: list[Points]
-    rings: list[Points]
 
+def knots_of(curve: Curve) -> Array:
+    """Return the breaks of a curve with 0 and 1 at their ends.
 
-def trace(curve: Curve, tolerance: float | Callable[[Points], Array]) -> Trace:
-    """Sample a curve so that no chord stands farther from it than the tolerance.
-
-    Args:
-        curve: the curve, in its own units.
-        tolerance: in the curve's units; or a function of points giving it place by place, for curves
-            that a map will stretch unevenly (the vertices are then left dense, to be thinned in the
-            image).
-
-    Returns:
-        The strands and rings, one set for every one of the curve's turns.
+    Raises:
+        GeometryError: naming the curve's class, where they do not ascend within (0, 1).
     """
-    t, points = _sample(curve, tolerance)
-    if curve.closed:
-        points[-1] = points[0]
-    strands, rings = [], []
-    for angle in curve.turns():
-        turned = points if angle == 0 else points @ _rotation(float(angle)).T
-        strands.append(turned)
-        for begin, stop in curve.loops():
-            i, j = np.searchsorted(t, [begin - 1e-12, stop - 1e-12])
-            ring = turned[i : j + 1]
-            rings.append(ring if np.array_equal(ring[0], ring[-1]) else np.vstack([ring, ring[:1]]))
-    return Trace(strands, rings)
+    breaks = _numbers(curve, "breaks()", curve.breaks())
+    knots = np.concatenate([[0.0], breaks.ravel(), [1.0]])
+    if not (np.diff(knots) > 0).all():
+        raise _fault(curve, "its breaks (stops) do not ascend, expected ascending numbers between 0 and 1")
+    return knots
 
 
-def _sample(curve: Curve, tolerance: float | Callable[[Points], Array]) -> tuple[Array, Points]:
-    knots = np.concatenate([[0.0], curve.breaks(), [1.0]])
-    # A few pieces to begin with between breaks, so that no bump hides between the probes.
-    starts = _subdivide(knots, 8 if len(knots) > 8 else 32)
-
-    def evaluate(_: Indices, t: Array) -> Points:
-        return curve.at(t)
-
-    fine = tolerance if callable(tolerance) else tolerance * REFINE_SHARE
-    _, t = refine(evaluate, np.zeros(len(starts) - 1, np.intp), starts[:-1], starts[1:], fine)
-    t = np.append(t, 1.0)
-    points = curve.at(t)
-    if callable(tolerance):
-        return t, points
-    given = np.zeros(len(t), bool)
-    given[np.searchsorted(t, knots)] = True
-    keep = thin(points, np.array([0, len(points)], np.intp), tolerance * (1 - REFINE_SHARE), given)
-    for begin, stop in curve.loops():
-        i, j = np.searchsorted(t, [begin - 1e-12, stop - 1e-12])
-        if keep[i : j + 1].sum() <= LEAST_CORNERS:
-            # So small, or the tolerance so coarse, that the ring would be a sliver: it keeps a shape.
-            keep[np.linspace(i, j, LEAST_CORNERS + 1).round().astype(np.intp)] = True
-    return t[keep], points[keep]
+def _numbers(curve: Curve, method: str, given: Any) -> Array:
+    """Return what a curve's method gives as an array of floats."""
+    try:
+        found = np.asarray(given)
+    except ValueError:
+        raise _fault(curve, f"{method} returns rows of different lengths, expected real numbers") from None
+    if found.dtype.kind not in "iuf":
+        kind = found.dtype if isinstance(given, np.ndarray) else type(given).__name__
+        raise _fault(curve, f"{method} returns {kind}, expected an array of real numbers")
+    return found.astype(float, copy=False)
 
 
-def _subdivide(knots: Array, parts: int) -> Array:
-    inner = knots[:-1, None] + np.diff(knots)[:, None] * np.arange(parts) / parts
-    return np.append(inner.ravel(), knots[-1])
-
-
-def _rotation(angle: float) -> Points:
-    c, s = np.cos(angle), np.sin(angle)
-    return np.array([[c, -s], [s, c]])
+def _fault(curve: Curve, words: str) -> GeometryError:
+    return GeometryError(f"{type(curve).__name__}: {words}")

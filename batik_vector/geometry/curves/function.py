@@ -25,7 +25,7 @@ class FunctionCurve(Curve):
 
     def at(self, t: Array) -> Points:
         """Return the points at ``t``."""
-        return np.asarray(self.function(t), float)
+        return self.function(t)
 
     def breaks(self) -> Array:
         """The stops given."""

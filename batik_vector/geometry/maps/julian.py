@@ -7,9 +7,8 @@ from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 
-from batik_vector import fields
-from batik_vector.errors import GeometryError, unknown_name
-from batik_vector.fields import Between, Says
+from batik_vector.errors import GeometryError
+from batik_vector.fields import Between, Says, check
 from batik_vector.geometry.maps.affine import Complexes, unit_power
 from batik_vector.geometry.maps.base import Variation
 from batik_vector.geometry.sampling import Array
@@ -39,15 +38,11 @@ class JuliaN(Variation):
     reading: Annotated[Reading, Says("rotate (the paper's layouts), root (flam3's) or literal")] = "rotate"
 
     def __post_init__(self) -> None:
-        fields.check(self)
-        if self.power != int(self.power):
-            raise GeometryError(f"power = {self.power}, expected a whole number")
+        check(self)
         if self.power == 0:
             raise GeometryError("power = 0: JuliaN needs at least one copy, expected -64 to -1 or 1 to 64")
         if abs(self.dist) < 1e-6:
             raise GeometryError(f"dist = {self.dist}: every point would land on the unit circle")
-        if self.reading not in READINGS:
-            raise GeometryError(unknown_name(str(self.reading), READINGS, "reading of JuliaN"))
 
     @property
     def exponent(self) -> float:

@@ -11,7 +11,7 @@ import typing
 from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, Literal, Union
 
-from batik_vector.fields import HIDDEN, Between, LengthUnit, OneOf, Says, Several, Text, hint_of
+from batik_vector.fields import HIDDEN, Between, LengthUnit, OneOf, Says, Several, Text, bound, hint_of
 from batik_vector.units import format_mm
 from batik_vector.values import frozen
 
@@ -135,24 +135,19 @@ def chosen(hint: Hint, value: Any) -> type | None:
     return hint.base if isinstance(hint.base, type) and dataclasses.is_dataclass(hint.base) else None
 
 
-def number(value: float) -> str:
-    """Return a bound as people write it."""
-    return str(int(value)) if float(value).is_integer() and abs(value) < 2**63 else f"{value:g}"
-
-
 def span(hint: Hint) -> str:
     """Return the bounds of a number: ``1 to 360``."""
     assert hint.bounds is not None
     low, high = hint.bounds.low, hint.bounds.high
     if hint.length:
         return f"{format_mm(low) if low >= 1e-3 or low <= 0 else low} to {format_mm(high)} mm"
-    return f"{number(low)} to {number(high)}"
+    return f"{bound(low)} to {bound(high)}"
 
 
 def example(hint: Hint) -> str:
     """Return a length as a recipe would write it, within the bounds."""
     low, high = (hint.bounds.low, hint.bounds.high) if hint.bounds else (0.0, math.inf)
-    return f"{next((number(mm) for mm in (280, 1, 0.02) if low <= mm <= high), number(low))} mm"
+    return f"{next((bound(mm) for mm in (280, 1, 0.02) if low <= mm <= high), bound(low))} mm"
 
 
 def expected(hint: Hint) -> str:

@@ -6,7 +6,7 @@ import enum
 from typing import Annotated, TypeAlias
 
 from batik_vector.artwork import Cell
-from batik_vector.fields import Between, Length, Says, check, choice
+from batik_vector.fields import Between, Length, Says, check
 from batik_vector.units import to_steps
 from batik_vector.values import frozen
 
@@ -65,8 +65,6 @@ class YardageSpec:
 
     def __post_init__(self) -> None:
         check(self)
-        object.__setattr__(self, "edge", choice(Edge, self.edge, "edge"))
-        object.__setattr__(self, "align", choice(Align, self.align, "align"))
 
     @property
     def bleed_steps(self) -> int:

@@ -91,13 +91,6 @@ class RosetteLayout(Layout):
     turn: Annotated[float, Between(-360, 360), Says("degrees the motif is turned first")] = 0.0
     axis: Annotated[float, Between(-360, 360), Says("direction of the first mirror in degrees")] = 0.0
 
-    def __post_init__(self) -> None:
-        check(self)
-        try:
-            object.__setattr__(self, "group", parse_rosette(self.group))
-        except ValueError as error:
-            raise GeometryError(f'group "{self.group}": {error}') from None
-
     def images(self, cell: tuple[float, float]) -> Affines | Bend:
         """n images, or 2n with the mirrored ones after each turned one."""
         count = int(self.group[1:])

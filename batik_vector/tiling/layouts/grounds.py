@@ -11,7 +11,7 @@ import math
 from typing import Annotated, ClassVar
 
 from batik_vector.errors import GeometryError
-from batik_vector.fields import Between, Length, Says, check, choice
+from batik_vector.fields import Between, Length, Says, check
 from batik_vector.tiling.layouts.base import Layout
 from batik_vector.values import frozen
 
@@ -76,7 +76,6 @@ class Toss(Layout):
 
     def __post_init__(self) -> None:
         check(self)
-        object.__setattr__(self, "clear", choice(Clear, self.clear, "clear"))
         for name, (low, high) in (("turn", self.turn), ("size", self.size)):
             if low > high:
                 raise GeometryError(f"{name} = [{low:g}, {high:g}]: expected the lesser number first")

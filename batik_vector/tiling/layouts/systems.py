@@ -72,6 +72,9 @@ class MapSpec:
     terms: Annotated[tuple[Term, ...], Says("the weighted variations; none is the identity")] = ()
     post: Annotated[Spot, Says("affine map after the variations")] = field(default_factory=Spot)
 
+    def __post_init__(self) -> None:
+        check(self)
+
     def flame(self) -> FlameMap:
         """Return the map itself."""
         terms = tuple((term.weight, term.variation) for term in self.terms) or ((1.0, Linear()),)

@@ -10,7 +10,7 @@ from typing import Annotated
 
 from batik_vector.artwork import Cell, DropAxis
 from batik_vector.errors import Fault, GeometryError, RecipeError, nearest
-from batik_vector.fields import Between, Length, Says, Text, check, choice
+from batik_vector.fields import Between, Length, Says, Text, check, shown
 from batik_vector.tiling.symmetry.groups import GROUP_PATTERN, GROUPS, Group, Kind, group, group_names
 from batik_vector.tiling.symmetry.machine_fit import Fit, per_cent, repeats_to_fill
 from batik_vector.tiling.symmetry.orbits import TRIVIAL, Orbit, Shift
@@ -114,7 +114,7 @@ def repeat_of(text: str) -> Repeat:
     except RecipeError:
         near = nearest(text, [*_NAMED, *MIRRORS, *group_names()])
         hint = f'did you mean "{near}"?' if near else f"expected {REPEATS}"
-        raise GeometryError(f'repeat "{text}": {hint}') from None
+        raise GeometryError(f"repeat {shown(text)}: {hint}") from None
 
 
 def _checked_repeat(text: str) -> str:
@@ -143,7 +143,6 @@ class TileSpec:
 
     def __post_init__(self) -> None:
         check(self)
-        object.__setattr__(self, "cut", choice(Cut, self.cut, "cut"))
         if self._repeat.mirrored and self.cut == Cut.UNIT:
             raise GeometryError(
                 f'cut = "unit" leaves the half of a {self.repeat} repeat: expected "rectangle"'

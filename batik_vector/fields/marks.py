@@ -1,25 +1,22 @@
 """Bounds, units and help of a parameter, written once beside the attribute.
 
 ``n: Annotated[int, Between(1, 48), Says("petals", "n")] = 4`` serves the check when a value is built in
-Python (:func:`check`), the check of a recipe, the schema, and the help. Nothing here imports pydantic:
-its hooks are methods that it looks for by name, so the geometry floor stays free of it.
+Python (:mod:`~batik_vector.fields.fitting`), the check of a recipe, the schema, and the help. Nothing here
+imports pydantic: its hooks are methods that it looks for by name, so the geometry floor stays free of it.
 """
 
 from __future__ import annotations
 
-import enum
 import functools
-import math
 import re
 import sys
 import types
 import typing
 from collections.abc import Callable, Iterator, Mapping
-from typing import Annotated, Any, ClassVar, TypeAlias, TypeVar
+from typing import Annotated, Any, ClassVar, TypeAlias
 
-from batik_vector.errors import GeometryError, unknown_name
 from batik_vector.units import parse_length
-from batik_vector.values import defaults, frozen
+from batik_vector.values import frozen
 
 
 @frozen
@@ -108,6 +105,24 @@ class Several:
         from pydantic_core import core_schema
 
         return core_schema.no_info_plain_validator_function(self.parse)
+
+
+@frozen
+class Instead:
+    """Marks an argument with what is expected in better words than the name of its class."""
+
+    expected: str
+
+
+@frozen
+class Converted:
+    """Marks what ``parse`` makes of whatever it takes; it raises TypeError or ValueError for all else.
+
+    Such fields are none of a recipe's.
+    """
+
+    parse: Callable[[Any], Any]
+    expected: str
 
 
 Names: TypeAlias = Annotated[str | tuple[str, ...], Several()]
@@ -213,87 +228,3 @@ def _home(cls: type, name: str, field: Any) -> type:
         for base in reversed(cls.__mro__)
         if vars(base).get("__dataclass_fields__", {}).get(name) is field
     )
-
-
-@functools.cache
-def _span(cls: type, name: str) -> tuple[float, float] | None:
-    """Return the bounds of a field, or None where its type has none.
-
-    Where the field is but a number they settle the matter; of any other nothing lies within them.
-    """
-    hint = hint_of(cls, name)
-    bounds = list(_bounds_in(hint))
-    if not bounds:
-        return None
-    if not _is_number(hint):
-        return math.inf, -math.inf
-    return max(each.low for each in bounds), min(each.high for each in bounds)
-
-
-def _bounds_in(hint: Any) -> Iterator[Between]:
-    yield from (mark for mark in getattr(hint, "__metadata__", ()) if isinstance(mark, Between))
-    for part in typing.get_args(hint):
-        yield from _bounds_in(part)
-
-
-def _is_number(hint: Any) -> bool:
-    """Whether a type is a number's, marked or not, or None."""
-    if hasattr(hint, "__metadata__"):
-        return _is_number(hint.__origin__)
-    if typing.get_origin(hint) in (typing.Union, types.UnionType):
-        return all(_is_number(part) for part in typing.get_args(hint))
-    return hint in (int, float, types.NoneType)
-
-
-def check(value: Any) -> None:
-    """Raise where a dataclass instance holds a number outside its bounds, in a field or in a list of them.
-
-    Defaults are taken to be right.
-
-    Raises:
-        GeometryError: naming the field, its value and the bounds.
-    """
-    cls: type = type(value)
-    for name, default in defaults(value).items():
-        held = getattr(value, name)
-        if held is default or held is None:
-            continue
-        span = _span(cls, name)
-        if span is None or (type(held) in (int, float) and span[0] <= held <= span[1]):
-            continue
-        for number, bounds in _outside(hint_of(cls, name), held):
-            raise GeometryError(f"{name} = {number}, expected {bounds.low:g} to {bounds.high:g}")
-
-
-def _outside(hint: Any, value: Any) -> Iterator[tuple[Any, Between]]:
-    """Yield the numbers in a value that lie outside the bounds of its type, and these bounds."""
-    if value is None:
-        return
-    for mark in getattr(hint, "__metadata__", ()):
-        if isinstance(mark, Between) and not (math.isfinite(value) and mark.low <= value <= mark.high):
-            yield value, mark
-    bare = hint.__origin__ if hasattr(hint, "__metadata__") else hint
-    args = typing.get_args(bare)
-    if typing.get_origin(bare) is tuple and isinstance(value, tuple | list):
-        each = [args[0]] * len(value) if args[-1] is Ellipsis else args
-        for one, part in zip(each, value, strict=False):
-            yield from _outside(one, part)
-    elif typing.get_origin(bare) in (typing.Union, types.UnionType):
-        for one in args:
-            if one is not type(None):
-                yield from _outside(one, value)
-
-
-Choice = TypeVar("Choice", bound=enum.StrEnum)
-
-
-def choice(kind: type[Choice], value: str, what: str) -> Choice:
-    """Return the member of an enumeration that a word names.
-
-    Raises:
-        GeometryError: with the nearest word that it has.
-    """
-    try:
-        return kind(value)
-    except ValueError:
-        raise GeometryError(unknown_name(str(value), list(kind), what)) from None

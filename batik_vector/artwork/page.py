@@ -1,20 +1,4 @@
-"""The normal form: what every recipe compiles to and every exporter writes.
-
-An :class:`Artwork` is a page of ink layers. What holds for each of them, and need not be asked again:
-
-* coordinates are millimetres on cloth, y upwards, the cell's lower left corner at (0, 0);
-* every coordinate is finite and lies on the 1 µm grid (it is the float ``k / 1000``);
-* areas are valid, non-empty polygons, outer rings anticlockwise, holes clockwise;
-* lines are polylines of at least two distinct points, no step of length zero; a closed line repeats its
-  first point at its end;
-* nothing lies outside the cell grown by ``bleed``;
-* nothing is drawn twice: no two areas of a layer overlap unless its ink says ``overlay``, and no two
-  lines of a layer share a stretch;
-* layer order is painting order, the first layer at the bottom; ink names are unique.
-
-:func:`violations` lists whatever breaks these rules; tests, ``batik-vector check`` and the exporters
-rely on its being empty.
-"""
+"""The page as values: inks, the cell, layers of marks, and the artwork that they make."""
 
 from __future__ import annotations
 
@@ -22,20 +6,28 @@ import enum
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import field, replace
 from fractions import Fraction
-from itertools import pairwise
-from typing import Any, Protocol
+from itertools import chain, pairwise
+from typing import Annotated, Any, Protocol, TypeAlias
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
+from shapely.geometry.base import BaseGeometry
 
 from batik_vector.errors import ExportError, GeometryError
+from batik_vector.fields import Between, Converted, check
 from batik_vector.geometry.outlines import MM, Outlines, of_polygons, of_polylines
-from batik_vector.units import GRID_MM, STEPS_PER_MM, nearest_steps, on_grid
+from batik_vector.units import STEPS_PER_MM
 from batik_vector.values import frozen
 
 Geometries = NDArray[np.object_]
 """A one-dimensional array of shapely geometries."""
+
+MOST_STEPS = 2**53
+"""Beyond it grid steps are no longer whole numbers of the floats that hold them."""
+
+Border: TypeAlias = tuple[str, int, int, int]
+"""Ink, axis, from, to: see :class:`Artwork`."""
 
 PIECE = 1 << 16
 """Vertices that a page hands over at a time, about: what is made of them stays in the processor's cache."""
@@ -73,6 +65,9 @@ class Ink:
     width: float = 1.0
     overlap: Overlap = Overlap.WELD
 
+    def __post_init__(self) -> None:
+        check(self)
+
 
 @frozen
 class Cell:
@@ -82,17 +77,16 @@ class Cell:
     are shifted by p/q of the other side, which is a whole number of steps.
     """
 
-    columns: int
-    rows: int
-    drop: Fraction = Fraction(0)
+    columns: Annotated[int, Between(1, MOST_STEPS)]
+    rows: Annotated[int, Between(1, MOST_STEPS)]
+    drop: Annotated[Fraction, Converted(Fraction, "a fraction such as 1/2")] = Fraction(0)
     axis: DropAxis = DropAxis.COLUMN
 
     def __post_init__(self) -> None:
-        if self.columns < 1 or self.rows < 1:
-            raise ValueError("a cell has a positive width and height")
+        check(self)
         side = self.rows if self.axis == DropAxis.COLUMN else self.columns
         if (self.drop * side).denominator != 1:
-            raise ValueError(f"a drop of {self.drop} does not land on the grid: {side} µm is no multiple")
+            raise GeometryError(f"a drop of {self.drop} does not land on the grid: {side} µm is no multiple")
 
     @property
     def width(self) -> float:
@@ -124,6 +118,40 @@ def _no_geometry() -> Geometries:
     return np.empty(0, dtype=object)
 
 
+def _geometries(given: Any) -> Geometries:
+    """Return geometries of shapely, one or any number of them, as an array.
+
+    Raises:
+        TypeError: where they are none.
+    """
+    if isinstance(given, np.ndarray) and given.dtype == object and given.ndim == 1:
+        found = given
+    else:
+        listed = [given] if isinstance(given, BaseGeometry) else list(given)
+        found = np.empty(len(listed), dtype=object)
+        found[:] = listed
+    if not shapely.is_geometry(found).all():
+        raise TypeError
+    return found
+
+
+def _borders(given: Any) -> frozenset[Border]:
+    """Return stretches of the seam as a set.
+
+    Raises:
+        TypeError: where one is none.
+    """
+    found = given if type(given) is frozenset else frozenset(map(tuple, given))
+    # There may be many: all are looked at in one go.
+    if set(map(len, found)) <= {4} and set(map(type, chain.from_iterable(found))) <= {str, int}:
+        return found
+    raise TypeError
+
+
+Marks = Converted(_geometries, "a list of shapely geometries")
+"""Marks a field that holds geometries."""
+
+
 @frozen(eq=False)
 class Layer:
     """All marks of one ink: filled polygons and centre lines, each with the name of its element.
@@ -133,12 +161,13 @@ class Layer:
     """
 
     ink: Ink
-    areas: Geometries = field(default_factory=_no_geometry)
-    lines: Geometries = field(default_factory=_no_geometry)
+    areas: Annotated[Geometries, Marks] = field(default_factory=_no_geometry)
+    lines: Annotated[Geometries, Marks] = field(default_factory=_no_geometry)
     area_names: tuple[str, ...] = ()
     line_names: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
+        check(self)
         if not self.area_names and len(self.areas):
             object.__setattr__(self, "area_names", ("",) * len(self.areas))
         if not self.line_names and len(self.lines):
@@ -152,6 +181,9 @@ class Provenance:
     recipe: str = ""
     seed: int = 0
     version: str = ""
+
+    def __post_init__(self) -> None:
+        check(self)
 
 
 @frozen
@@ -229,7 +261,7 @@ class Page(Protocol):
 
 @frozen(eq=False)
 class Artwork:
-    """A page of ink layers on cloth, in the normal form that the head of this module states.
+    """A page of ink layers on cloth, in the normal form that :mod:`batik_vector.artwork` states.
 
     ``tolerance`` (mm) is how far any drawn edge may stand from the true curve. ``bleed`` (mm) is how
     far the geometry reaches beyond the cell on every side. ``borders`` are the stretches of the seam along
@@ -245,8 +277,11 @@ class Artwork:
     tolerance: float = 0.02
     bleed: float = 0.0
     provenance: Provenance = Provenance()
-    borders: frozenset[tuple[str, int, int, int]] = frozenset()
+    borders: Annotated[frozenset[Border], Converted(_borders, "a set of (ink, axis, from, to)")] = frozenset()
     facts: Mapping[str, Any] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        check(self)
 
     @property
     def vertex_count(self) -> int:
@@ -295,6 +330,14 @@ class Artwork:
         return svg_text(self)
 
 
+@frozen(eq=False)
+class RawArtwork(Artwork):
+    """A page as another program drew it: its marks may overlap, lie off the grid and reach beyond the cell.
+
+    The certificate measures it as it shows; writers want it brought to the normal form first.
+    """
+
+
 def _check_marks(marks: Geometries, kind: shapely.GeometryType, ink: str, words: str) -> None:
     if (shapely.get_type_id(marks) != kind).any() or shapely.is_empty(marks).any():
         raise ExportError(f'ink "{ink}": {words}, or empty')
@@ -312,88 +355,3 @@ def _pieces(
         except GeometryError as error:
             raise ExportError(f'ink "{ink}": {error}') from None
         yield replace(outlines, names=names[first:stop])
-
-
-def violations(artwork: Artwork) -> list[str]:
-    """Return what breaks the rules at the head of this module, in words; an empty list is a clean artwork."""
-    found = [
-        f'two layers named "{name}"'
-        for name, times in _counts(layer.ink.name for layer in artwork.layers).items()
-        if times > 1
-    ]
-    for layer in artwork.layers:
-        found += [f"{layer.ink.name}: {words}" for words in _layer_violations(layer, artwork)]
-    return found
-
-
-def _counts(names: Iterator[str]) -> dict[str, int]:
-    counts: dict[str, int] = {}
-    for name in names:
-        counts[name] = counts.get(name, 0) + 1
-    return counts
-
-
-def _layer_violations(layer: Layer, artwork: Artwork) -> Iterator[str]:
-    if len(layer.area_names) != len(layer.areas) or len(layer.line_names) != len(layer.lines):
-        yield "names do not run beside the marks"
-    areas, lines = layer.areas, layer.lines
-    coords = shapely.get_coordinates(np.concatenate([areas, lines]))
-    if not np.isfinite(coords).all():
-        yield "a coordinate is not finite"
-        return
-    if not np.array_equal(on_grid(coords), coords):
-        yield "a coordinate is off the 1 µm grid"
-    low, high = -artwork.bleed, artwork.bleed
-    if len(coords) and (
-        coords.min() < low - GRID_MM / 2
-        or coords[:, 0].max() > artwork.cell.width + high + GRID_MM / 2
-        or coords[:, 1].max() > artwork.cell.height + high + GRID_MM / 2
-    ):
-        yield "a mark lies outside the cell"
-    yield from _area_violations(layer)
-    yield from _line_violations(lines)
-
-
-def _area_violations(layer: Layer) -> Iterator[str]:
-    areas = layer.areas
-    if not len(areas):
-        return
-    if (shapely.get_type_id(areas) != shapely.GeometryType.POLYGON).any() or shapely.is_empty(areas).any():
-        yield "an area is no polygon, or empty"
-        return
-    valid = shapely.is_valid(areas)
-    if not valid.all():
-        yield f"{int((~valid).sum())} invalid areas, the first: {shapely.is_valid_reason(areas[~valid][0])}"
-        return
-    if not shapely.is_ccw(shapely.get_exterior_ring(areas)).all():
-        yield "an outer ring runs clockwise"
-    rings, owner = shapely.get_rings(areas, return_index=True)
-    holes = np.r_[False, owner[1:] == owner[:-1]]
-    if shapely.is_ccw(rings[holes]).any():
-        yield "a hole runs anticlockwise"
-    if layer.ink.overlap != Overlap.OVERLAY and len(areas) > 1:
-        tree = shapely.STRtree(areas)
-        a, b = tree.query(areas, predicate="intersects")
-        pairs = a < b
-        over = shapely.relate_pattern(areas[a[pairs]], areas[b[pairs]], "T********")
-        if over.any():
-            yield f"{int(over.sum())} pairs of areas overlap"
-
-
-def _line_violations(lines: Geometries) -> Iterator[str]:
-    if not len(lines):
-        return
-    if (shapely.get_type_id(lines) != shapely.GeometryType.LINESTRING).any() or shapely.is_empty(lines).any():
-        yield "a line is no polyline, or empty"
-        return
-    coords, owner = shapely.get_coordinates(lines, return_index=True)
-    step = nearest_steps(coords[1:] - coords[:-1])
-    inside = owner[1:] == owner[:-1]
-    if (inside & (step == 0).all(axis=1)).any():
-        yield "a line has a step of length zero"
-    ends = nearest_steps(np.hstack([coords[:-1], coords[1:]])[inside]).astype(np.int64)
-    flip = (ends[:, 0] > ends[:, 2]) | ((ends[:, 0] == ends[:, 2]) & (ends[:, 1] > ends[:, 3]))
-    ends[flip] = ends[flip][:, [2, 3, 0, 1]]
-    twice = len(ends) - len(np.unique(ends, axis=0))
-    if twice:
-        yield f"{twice} line segments are drawn twice"

@@ -1,0 +1,44 @@
+"""Fields of values: their bounds, units and help, and whether what they are given fits."""
+
+from __future__ import annotations
+
+from batik_vector.fields.fitting import bound, check, given, shown
+from batik_vector.fields.marks import (
+    HIDDEN,
+    TAG,
+    Between,
+    Colour,
+    Converted,
+    Instead,
+    Length,
+    LengthUnit,
+    Names,
+    OneOf,
+    Says,
+    Several,
+    Text,
+    hint_of,
+    parse_colour,
+)
+
+__all__ = [
+    "HIDDEN",
+    "TAG",
+    "Between",
+    "Colour",
+    "Converted",
+    "Instead",
+    "Length",
+    "LengthUnit",
+    "Names",
+    "OneOf",
+    "Says",
+    "Several",
+    "Text",
+    "bound",
+    "check",
+    "given",
+    "hint_of",
+    "parse_colour",
+    "shown",
+]
