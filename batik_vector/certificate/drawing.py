@@ -313,8 +313,8 @@ def edges(coords: Steps, offsets: NDArray[np.int64]) -> Edges:
     closed = (coords[offsets[:-1]] == coords[offsets[1:] - 1]).all(axis=1)[some]
     after[last] = np.where(closed, first, last)
     turn = np.abs((heading[after] - heading + np.pi) % (2 * np.pi) - np.pi)
-    before = np.full(len(owner), np.inf)
-    before[after] = turn
-    before[first[~closed]] = np.inf
     turn[last[~closed]] = np.inf
+    before = np.full(len(owner), np.inf)
+    goes_on = np.flatnonzero(np.isfinite(turn))
+    before[after[goes_on]] = turn[goes_on]
     return Edges(begin, end, owner, before, turn)

@@ -29,7 +29,7 @@ LONG_MM = 5.0
 """A stretch this long (mm) does not run beside another because both curves happen to touch."""
 
 SAME_MM = 1e-6
-"""Stretches this near (mm) to one straight line lie on it."""
+"""Stretches this near (mm) to one straight line lie on it, in files off the grid."""
 
 STEADY = 0.4
 """Share of the limit by which the distance of such a stretch may change from one end to the other."""
@@ -137,7 +137,8 @@ def _shared(edges: Edges, frame: Frame, reach: float) -> Shared:
     low, high = _within(t0, t1, s0, s1, length, reach)
     close = high - low > 2 * reach
     slope = (s1 - s0) / np.where(t1 == t0, 1.0, t1 - t0)
-    exact = np.maximum(np.abs(s0), np.abs(s1)) <= SAME_MM * frame.per_mm
+    # On the grid lines that are a step apart were drawn so, and one line is one to the bit.
+    exact = np.maximum(np.abs(s0), np.abs(s1)) <= (0.0 if frame.exact else SAME_MM * frame.per_mm)
     steady = np.abs(slope) * (high - low) <= STEADY * reach
     found = Shared(one, origin[other], low, high, exact, steady, other >= count)
     return found.only(close)

@@ -53,6 +53,16 @@ RIGID = 1.5
 """On a stretched lattice marks may have kept their shape, and then stand out by the stretch times the way to
 their centre. No more of it than this many times the slack is put up with."""
 
+PLAIN = "blank, or covered all over"
+SPECKS = 1e-6
+"""The share of the page that may be bare, or covered, of one that is covered all over, or blank."""
+
+COARSE = 50
+"""How many times the slack the shortest translation of a tile is, at the least."""
+
+FINEST = 4
+"""A pattern that repeats within so many times the slack cannot be told from one that is drawn less truly."""
+
 NEARLY, MISSES = 0.5, 3
 """The share of the outline that a refused operation must meet to be told of, and how many are told of."""
 
@@ -71,12 +81,24 @@ def found_group(
             that lattice stretched (0.01 is one percent).
     """
     drawn = outline(layers, cell)
-    if not len(drawn.edges):
+    if _plain(drawn, cell):
         basis = basis_of(cell)
         sides = (pair(basis[:, 0]), pair(basis[:, 1]))
-        return FoundGroup("p1", ORBIFOLDS["p1"], sides, 1, note="blank, or covered all over")
+        return FoundGroup("p1", ORBIFOLDS["p1"], sides, 1, note=PLAIN)
     # Both the pattern and its image may be out by the tolerance; simplifying and rounding add a little.
-    return _Search(drawn, cell, 2 * tolerance + 4 * GRID_MM, stretch).result()
+    slack = 2 * tolerance + 4 * GRID_MM
+    # Where a tolerance is coarse for a small tile, everything would be found to be like everything.
+    finest = float(np.hypot(*basis_of(cell)).min()) / COARSE
+    return _Search(drawn, cell, min(slack, finest), stretch).result()
+
+
+def _plain(drawn: Outline, cell: Cell) -> bool:
+    """Whether nothing is drawn, or the page covered all over, but for specks that rounding leaves."""
+    if (drawn.edges.kind % 2 == 1).any():
+        return False
+    (x0, y0), (x1, y1) = drawn.rings.begin.T, drawn.rings.end.T
+    shares = np.bincount(drawn.rings.kind, (x0 * y1 - x1 * y0) / 2) / (cell.width * cell.height)
+    return bool((np.minimum(np.abs(shares), np.abs(1 - shares)) <= SPECKS).all())
 
 
 def basis_of(cell: Cell) -> Matrix:
@@ -94,7 +116,7 @@ class _Search:
         self.basis = basis if self.along is None else self.along.basis
         self.drawn = drawn if self.along is None else self.along.drawn
         self.slack, self.stretch = slack, stretch
-        self.matcher = Matcher(self.drawn.edges, self.basis, slack, pixel_of(self.basis))
+        self.matcher = Matcher(self.drawn.edges, self.basis, slack, pixel_of(self.basis), thin=slack / 2)
         self.refused: list[tuple[float, Whole, Matrix, Vector]] = []
         self.deviation = 0.0
 
@@ -146,12 +168,19 @@ class _Search:
             part = fractions_of(np.asarray(np.linalg.solve(self.basis, shift)), self.basis, self.slack)
             if part is not None:
                 shift = self.basis @ np.array(part, float)
+            if part is not None and self._too_fine(refined([*shifts, part])):
+                continue
             fit = self.matcher.fit(np.eye(2), shift, self.slack)
             if part is not None and self._accepted(fit, IDENTITY, np.eye(2), shift):
                 self.deviation = max(self.deviation, fit.worst)
                 shifts.append(part)
                 rows = refined(shifts)
         return reduced(self.basis @ np.array(rows, float).T) if shifts else self.basis
+
+    def _too_fine(self, rows: tuple[tuple[Fraction, ...], ...]) -> bool:
+        """Whether a lattice is one that any drawing would have, being within the slack of every shift."""
+        finer = reduced(self.basis @ np.array(rows, float).T)
+        return bool(np.hypot(*finer).min() <= FINEST * self.slack)
 
     def _whole(self, place: Vector, basis: Matrix) -> bool:
         """Whether lattice coordinates are whole numbers, as far as a grid of the correlation tells."""

@@ -26,7 +26,7 @@ from batik_vector.certificate.report import Certificate, Kind, Limits, Measures,
 from batik_vector.certificate.seam import Seam, seams_of
 from batik_vector.certificate.shifts import agreeing_shift, all_events, shift_fault
 from batik_vector.certificate.slivers import sliver_fault, slivers
-from batik_vector.certificate.symmetry import STRETCH, found_group
+from batik_vector.certificate.symmetry import PLAIN, STRETCH, found_group
 from batik_vector.certificate.tangents import Turns, border_turns, line_turns, turn_faults
 from batik_vector.fields import given
 from batik_vector.tiling.symmetry.groups import group
@@ -239,7 +239,8 @@ def _check_symmetry(artwork: Artwork, asked: Asked | None, ledger: _Ledger) -> s
     """Return the group found; accuse it of being another than the one asked for."""
     stretch = max(STRETCH, asked.stretch if asked else 0.0)
     found = found_group(artwork.layers, artwork.cell, artwork.tolerance, stretch=stretch)
-    if asked is None or asked.allows(found.name):
+    # A page that is plain has every symmetry.
+    if asked is None or asked.allows(found.name) or (found.note == PLAIN and not asked.exactly):
         return found.name
     words = f"the drawing has the symmetry group {found.name}, and {asked.name} was asked for"
     where, ink, amount = (artwork.cell.width / 2, artwork.cell.height / 2), "", 0.0

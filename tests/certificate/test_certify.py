@@ -25,6 +25,7 @@ from batik_vector.tiling.welding.stack import assemble
 from tests.broken_artworks import BROKEN
 from tests.certificate.tiles import AREAS, LINES, OVERLAY, PEN, WAX, added, marks, strokes, tile
 from tests.recipes import REPEATS, recipes
+from tests.thorough import examples, long
 from tests.tiling.test_seamless import compiled, many
 
 SAMPLES = Path(__file__).resolve().parents[2] / "samples"
@@ -56,11 +57,12 @@ def test_samples_pass(name: str, group: str) -> None:
     assert certificate.worst.identity < 1e-9
 
 
+@long
 @pytest.mark.parametrize("repeat", REPEATS)
 def test_random_recipes_pass(repeat: str) -> None:
     # Others for each repeat, and always the same.
     @seed(REPEATS.index(repeat))
-    @settings(many, derandomize=False, database=None, max_examples=2)
+    @settings(many, derandomize=False, database=None, max_examples=examples(2, 20))
     @given(recipes(repeat, grounded=True))
     def passes(recipe: Recipe) -> None:
         certificate = certify(compiled(recipe), symmetry=False)

@@ -356,3 +356,20 @@ def test_operations_that_make_up_no_group_are_none() -> None:
     none = np.zeros(2)
     assert closed({IDENTITY: none, mirror: none}, sheared, none) is None
     assert len(closed({IDENTITY: none, mirror: none}, ((1, 0), (0, -1)), none) or ()) == 4
+
+
+def test_a_hair_on_one_side_of_a_mirror_alone_does_not_count() -> None:
+    body = shapely.box(20, 20, 80, 60)
+    whole = shapely.difference(body, shapely.box(49, 20, 51, 30))
+    needle = shapely.Polygon([(30, 60), (30.004, 60), (30.002, 61.5)])
+    slit = shapely.Polygon([(70, 60), (70.004, 60), (70.002, 58)])
+    assert group_of(SQUARE_CELL, whole).name == "pm"
+    assert group_of(SQUARE_CELL, shapely.difference(shapely.union(whole, needle), slit)).name == "pm"
+    # What is broader than a hair is drawn.
+    tooth = shapely.Polygon([(30, 60), (30.3, 60), (30.15, 61.5)])
+    assert group_of(SQUARE_CELL, shapely.union(whole, tooth)).name == "p1"
+
+
+def test_specks_in_a_page_that_is_covered_all_over_do_not_count() -> None:
+    page = shapely.difference(shapely.box(0, 0, 100, 100), shapely.box(30, 30, 30.002, 30.003))
+    assert group_of(SQUARE_CELL, page).note == "blank, or covered all over"

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from batik_vector.certificate import Kind, certify
+from batik_vector.certificate.drawing import edges
 from tests.certificate.tiles import AREAS, LINES, accused, tile, vertex_moved
 
 KINK = np.tan(np.arctan(0.1) - np.radians(1))
@@ -55,3 +56,9 @@ def test_a_curve_with_a_vertex_on_the_seam_may_turn_as_it_does_elsewhere() -> No
     disc -= [disc[7, 0], -45]
     turn = certify(tile(areas=[*AREAS, np.round(disc, 3)], lines=LINES)).worst.turn
     assert turn == 0
+
+
+def test_the_way_into_the_end_of_an_open_line_is_known() -> None:
+    found = edges(np.array([(0, 0), (10, 0), (20, 10), (20, 30)], np.int64), np.array([0, 4]))
+    assert np.degrees(found.turn_begin).tolist() == pytest.approx([np.inf, 45, 45])
+    assert np.degrees(found.turn_end).tolist() == pytest.approx([45, 45, np.inf])

@@ -21,6 +21,10 @@ from batik_vector.artwork import Geometries
 SPECK = 0.25
 """Grid cells: a hole smaller than this is no drawing."""
 
+MANY = 20_000
+"""Vertices past which a union is not made once more on the grid, for which GEOS may take minutes, but rounded
+there as a whole."""
+
 Again = Callable[[NDArray[np.intp]], shapely.Geometry | Geometries]
 """Makes the results of some rows again, on the grid."""
 
@@ -37,12 +41,19 @@ def united(groups: Sequence[Geometries]) -> Geometries:
             row[: sizes[group]] = groups[group]
         joined[rows] = shapely.union_all(table, axis=1)
 
-    def again(rows: NDArray[np.intp]) -> Geometries:
-        return np.array(
-            [shapely.union_all(groups[row], grid_size=1.0) for row in rows.tolist()], dtype=object
-        )
+    whole = _without_specks(joined)
 
-    return _rounded(_without_specks(joined), again)
+    def again(rows: NDArray[np.intp]) -> Geometries:
+        return np.array([_united_on_grid(groups[row], whole[row]) for row in rows.tolist()], dtype=object)
+
+    return _rounded(whole, again)
+
+
+def _united_on_grid(areas: Geometries, union: shapely.Geometry) -> shapely.Geometry:
+    """Return the union of areas on the grid, given the one that lies between its points."""
+    if shapely.get_num_coordinates(areas).sum() > MANY:
+        return shapely.set_precision(union, 1.0)
+    return shapely.union_all(areas, grid_size=1.0)
 
 
 def _powers(sizes: NDArray[np.intp]) -> NDArray[np.intp]:

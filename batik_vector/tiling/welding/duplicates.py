@@ -3,6 +3,9 @@
 Exact integer arithmetic on grid steps. Two stretches overlap when they lie on one straight line, that
 is, when their directions in lowest terms and their distances from the origin are equal whole numbers,
 and their intervals along it overlap.
+
+Copies of one line that come to lie on one another by different ways, turned or mirrored, are rounded apart by
+a step here and there. Their segments are made the same first.
 """
 
 from __future__ import annotations
@@ -12,7 +15,15 @@ import shapely
 from numpy.typing import NDArray
 
 from batik_vector.artwork import Geometries
+from batik_vector.tiling.torus.torus import Window
 from batik_vector.tiling.welding.congruent import alike
+from batik_vector.tiling.welding.weld import components
+
+ROUNDED = 1
+"""By how many steps along each axis the roundings of one point may stand apart."""
+
+LEAST = 8
+"""Segments up to this long (steps) are too short to be told apart from their neighbours."""
 
 
 def drawn_once(lines: Geometries, names: NDArray[np.intp]) -> tuple[Geometries, NDArray[np.intp]]:
@@ -39,6 +50,49 @@ def drawn_once(lines: Geometries, names: NDArray[np.intp]) -> tuple[Geometries, 
     if not chained.any():
         return lines, names
     return _rejoined(lines, names, owner, order, chained, (high, ends))
+
+
+def aligned(lines: Geometries, window: Window) -> Geometries:
+    """Return polylines whose segments are the same where they were so but for a step of rounding.
+
+    What lies on the edges of the window stays where it is.
+    """
+    if not len(lines):
+        return lines
+    coords, owner = shapely.get_coordinates(lines, return_index=True)
+    xy = coords.astype(np.int64)
+    begin = np.flatnonzero(owner[1:] == owner[:-1])
+    begin = begin[np.abs(xy[begin + 1] - xy[begin]).max(axis=1) > LEAST]
+    pairs = _near_alike(xy, begin)
+    x, y = xy.T
+    free = (x > window.left) & (y > window.bottom) & (x < window.right) & (y < window.top)
+    pairs = pairs[free[pairs].all(axis=1) & (xy[pairs[:, 0]] != xy[pairs[:, 1]]).any(axis=1)]
+    if not len(pairs):
+        return lines
+    label = components(len(xy), pairs)
+    # The least of all places is the same wherever the lines lie.
+    order = np.lexsort([xy[:, 1], xy[:, 0], label])
+    heads, number = np.unique(label[order], return_index=True)
+    moved = xy[order[number]][np.searchsorted(heads, label)]
+    return np.asarray(shapely.set_coordinates(lines.copy(), moved.astype(float)), dtype=object)
+
+
+def _near_alike(xy: NDArray[np.int64], begin: NDArray[np.intp]) -> NDArray[np.intp]:
+    """Return the pairs of vertices that segments, ``begin`` to the next, share but for rounding."""
+    middle = xy[begin] + xy[begin + 1]
+    found = [np.empty((0, 2), np.intp)]
+    side = 4 * ROUNDED
+    # Two that are near share a square of one of four grids, each set off by half a square.
+    for corner in ((0, 0), (0, side // 2), (side // 2, 0), (side // 2, side // 2)):
+        square = (middle + corner) // side
+        order = np.lexsort([square[:, 1], square[:, 0]])
+        follows = (square[order[1:]] == square[order[:-1]]).all(axis=1)
+        one, other = begin[order[:-1][follows]], begin[order[1:][follows]]
+        for there, back in ((other, other + 1), (other + 1, other)):
+            near = np.abs(xy[one] - xy[there]).max(axis=1) <= ROUNDED
+            near &= np.abs(xy[one + 1] - xy[back]).max(axis=1) <= ROUNDED
+            found += [np.column_stack([one, there])[near], np.column_stack([one + 1, back])[near]]
+    return np.concatenate(found)
 
 
 def _on_lines(

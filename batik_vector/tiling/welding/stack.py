@@ -20,7 +20,7 @@ from batik_vector.geometry.outlines import Index
 from batik_vector.tiling.torus.torus import Lattice, to_mm
 from batik_vector.tiling.welding.congruent import Stock
 from batik_vector.tiling.welding.cuts import cut, touched
-from batik_vector.tiling.welding.duplicates import drawn_once
+from batik_vector.tiling.welding.duplicates import aligned, drawn_once
 from batik_vector.tiling.welding.growth import grown_on_grid
 from batik_vector.tiling.welding.sheets import Laid, Pile, Sheet, joined
 from batik_vector.tiling.welding.weld import weld
@@ -141,7 +141,8 @@ def _assemble_on(torus: Torus, pile: Pile, left: Cut, inks: Sequence[Ink]) -> tu
         if sealed is None:
             return None
         own = [each for name, each in strokes if name == ink.name]
-        once = drawn_once(*_together(own))
+        drawn_lines, of = _together(own)
+        once = drawn_once(aligned(drawn_lines, torus.window), of)
         torus.record_ends(ink.name, once[0])
         layers.append(_layer(ink, torus.stock, Laid(sealed, mine.sheet), once, names))
     return tuple(layer for layer in layers if len(layer.areas) or len(layer.lines))
