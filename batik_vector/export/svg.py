@@ -331,7 +331,8 @@ def _inked(plate: Plate, number: int, label: str, profile: Profile) -> Any:
         group = layer
         if len(kinds) > 1:
             group = layer.add(Group(debug=False))
-            group.attribs.update(style)
+            # Inkscape's R12 writer goes by the label of a path's own group.
+            group.attribs.update({"inkscape:label": label, **style})
         group.add(_Element(HOLE, {"at": f"{PLACE}{kind} {number}{PLACE}"}))
     return layer
 
