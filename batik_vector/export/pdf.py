@@ -26,7 +26,7 @@ from batik_vector.export.numbers import WORD, Room, Style, Words, room_for, spel
 from batik_vector.export.options import Curves, PdfInks, PdfOptions
 from batik_vector.export.palette import rgb, xml_label
 from batik_vector.export.provenance import NAMESPACE, xml_fields
-from batik_vector.export.strokes import CONTROL, LINE, MOVE, Strokes, strokes, trim_of
+from batik_vector.export.strokes import CONTROL, LINE, MOVE, Pen, Strokes
 from batik_vector.export.walk import Outlines, in_memory, walk
 from batik_vector.units import STEPS_PER_MM
 
@@ -203,7 +203,8 @@ class _PdfSurface:
     def begin(self, page: Page) -> None:
         self._page = _Page(page, self._options)
         chosen = self._options.curve_tolerance or page.tolerance
-        self._tolerance = chosen if self._options.curves is Curves.BEZIER else None
+        self._pen = Pen(page, chosen if self._options.curves is Curves.BEZIER else None)
+        self._number = -1
         self._file = _File(self._sink)
         for number, body in enumerate(self._page.before(), start=1):
             self._file.whole(number, body)
@@ -215,6 +216,7 @@ class _PdfSurface:
             self._content.put(b"%b0 0 %d %d re\nf\n" % (fill.encode("ascii"), *self._page.size))
 
     def ink(self, ink: Ink, pen: int) -> None:
+        self._number += 1
         self._ink = ink
         self._colours = self._layer(ink.colour)
         self._coloured = [False, False]
@@ -223,14 +225,18 @@ class _PdfSurface:
         if not self._coloured[0]:
             self._coloured[0] = True
             self._content.put(self._colours[0].encode("ascii"))
-        self._content.put(path_operators(self._drawn(outlines), "f*", outlines.unfinished))
+        self._content.put(
+            path_operators(self._pen.strokes(outlines, self._number, "areas"), "f*", outlines.unfinished)
+        )
 
     def lines(self, outlines: Outlines) -> None:
         if not self._coloured[1]:
             self._coloured[1] = True
             width = round(self._ink.width * STEPS_PER_MM)
             self._content.put(f"{self._colours[1]}{width} w\n".encode("ascii"))
-        self._content.put(path_operators(self._drawn(outlines), "S", outlines.unfinished))
+        self._content.put(
+            path_operators(self._pen.strokes(outlines, self._number, "lines"), "S", outlines.unfinished)
+        )
 
     def end(self) -> None:
         if self._layer_count:
@@ -239,11 +245,6 @@ class _PdfSurface:
         for number, body in enumerate(self._page.behind(), start=CONTENT + 1):
             self._file.whole(number, body)
         self._file.end()
-
-    def _drawn(self, outlines: Outlines) -> Strokes:
-        margins = self._page.page.margins
-        moved = outlines.moved(margins.left, margins.bottom)
-        return strokes(moved, self._tolerance, trim_of(self._page.page, margins.bottom))
 
     def _layer(self, colour: str) -> tuple[str, str]:
         """Open the next layer; return the operators that set its colour for filling and for stroking."""

@@ -43,7 +43,7 @@ from batik_vector.export.numbers import (
 from batik_vector.export.options import Curves, Profile, SvgOptions
 from batik_vector.export.palette import hex_colour, xml_label
 from batik_vector.export.provenance import NAMESPACE, xml_fields
-from batik_vector.export.strokes import CONTROL, CURVE, LINE, MOVE, Strokes, strokes, trim_of
+from batik_vector.export.strokes import CONTROL, CURVE, LINE, MOVE, Pen, Strokes
 from batik_vector.export.walk import Outlines, in_memory, walk
 from batik_vector.geometry.outlines import Index
 from batik_vector.units import STEPS_PER_MM, format_mm
@@ -139,10 +139,8 @@ class _SvgSurface:
         self._ids = Ids()
 
     def begin(self, page: Page) -> None:
-        self._page = page
-        self._rows = page.cell.rows + page.margins.bottom + page.margins.top
         chosen = self._options.curve_tolerance or page.tolerance
-        self._tolerance = chosen if self._options.curves is Curves.BEZIER else None
+        self._pen = Pen(page, chosen if self._options.curves is Curves.BEZIER else None, downwards=True)
         # Words, then the name of a place, then words and so on.
         self._furniture = iter(furniture(page, self._options).split(PLACE))
         self._number = -1
@@ -186,9 +184,7 @@ class _SvgSurface:
         if kind != self._kind:
             self._go_to(f"{kind} {self._number}")
             self._kind, self._points, self._unfinished = kind, 0, False
-        margins = self._page.margins
-        flipped = outlines.flipped(self._rows - margins.bottom, margins.left)
-        drawn = strokes(flipped, self._tolerance, trim_of(self._page, margins.top))
+        drawn = self._pen.strokes(outlines, self._number, kind)
         if self._compact:
             self._write_blocks(drawn, outlines.unfinished)
         else:

@@ -165,6 +165,6 @@ def inkscape_r14(svg: Path) -> Path:
 def plates(pdf: Path, per_mm: float) -> dict[str, Path]:
     """Return the plates that Ghostscript separates a page into: pictures in which ink is black, by name."""
     out = pdf.with_name("plate.tif")
-    run("gs", "-q", "-dNOPAUSE", "-dBATCH", "-dSAFER", "-sDEVICE=tiffsep", "-dGraphicsAlphaBits=4", f"-r{dpi(per_mm)}",
-        f"-sOutputFile={out}", pdf, home=pdf.parent)  # fmt: skip
+    device = ("-sDEVICE=tiffsep", "-dGraphicsAlphaBits=4", f"-r{dpi(per_mm)}", f"-sOutputFile={out}")
+    run("gs", "-q", "-dNOPAUSE", "-dBATCH", "-dSAFER", *device, pdf, home=pdf.parent)
     return {path.stem[len("plate(") : -1]: path for path in pdf.parent.glob("plate(*).tif")}
