@@ -41,7 +41,7 @@ def handles(cubics: np.ndarray, axis: int, edge: int) -> dict[int, list[complex]
 
 
 def turns(artwork: Artwork, downwards: bool = False) -> list[float]:
-    """By how many degrees curves turn where they cross the seam, less what rounding their handles explains."""
+    """Degrees by which curves turn where they cross the seam, less what rounding their handles explains."""
     cubics = curves(artwork, downwards)
     found = []
     for axis, side in ((0, artwork.cell.columns), (1, artwork.cell.rows)):
