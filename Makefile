@@ -26,7 +26,7 @@ demo: $(READY) ## compile samples/four-square.toml to SVG, PDF, DXF and PNG in o
 test: $(TOOLS_READY) ## run the tests
 	$(PY) -m pytest $(WORKERS) -rs
 
-test-clients: $(TOOLS_READY) $(CLIENTS_READY) ## open the files in Inkscape, LibreCAD, Chromium, poppler, mupdf, qpdf
+test-clients: $(TOOLS_READY) $(CLIENTS_READY) ## open the files in Inkscape, LibreCAD, vpype, Chromium, poppler, mupdf, Ghostscript, qpdf
 	$(PY) -m pytest $(WORKERS) -rs -m clients
 
 test-long: $(TOOLS_READY) ## run the random tests with many more examples
@@ -72,7 +72,7 @@ $(TOOLS_READY): $(READY)
 	@tools/setup.sh tools
 	@touch $@
 
-$(CLIENTS_READY): tools/setup.sh | $(TOOLS_READY)
+$(CLIENTS_READY): benchmarks/requirements.txt tools/setup.sh | $(TOOLS_READY)
 	@tools/setup.sh clients
 	@touch $@
 

@@ -60,6 +60,7 @@ _HOMES = {
         "ExportError",
         "Fault",
         "GeometryError",
+        "MissingLibraryError",
         "RecipeError",
         "SeamError",
         "TooLargeError",

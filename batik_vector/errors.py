@@ -8,7 +8,8 @@
     │ └ TooLargeError                 the work would not fit: says how large it would be
     ├ SeamError                       opposite edges of a tile would not meet
     └ ExportError
-      └ UnsupportedByFormatError      the format cannot hold what was asked
+      ├ UnsupportedByFormatError      the format cannot hold what was asked
+      └ MissingLibraryError           the format needs what this system lacks
 
 Faces (the command, the notebook) catch ``BatikError`` and nothing else: any other exception is a
 defect of this program and shows its traceback.
@@ -82,6 +83,10 @@ class ExportError(BatikError):
 
 class UnsupportedByFormatError(ExportError):
     """Something the chosen format cannot hold."""
+
+
+class MissingLibraryError(ExportError):
+    """A format that needs a library which this system lacks; says how to install it."""
 
 
 def unknown_name(name: str, known: Sequence[str], what: str = "name") -> str:

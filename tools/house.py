@@ -48,7 +48,12 @@ rooms on one floor never meet: tiling and export, geometry and artwork."""
 WINGS: dict[str, Floors] = {
     "tiling": _floors("layouts", "torus", "welding tossing", "symmetry cloth borders"),
     "geometry": _floors(
-        "sampling outlines edge_snap", "ragged curves regions stretches", "bezier maps", "coincidence", "ifs"
+        "sampling outlines edge_snap",
+        "known",
+        "ragged curves regions stretches inside",
+        "bezier continuations maps",
+        "coincidence",
+        "ifs",
     ),
 }
 """The rooms within a room, likewise."""

@@ -4,7 +4,7 @@
 #   tools/setup.sh python     an environment with this package, and cairo
 #   tools/setup.sh tools      into the same, what tests and checks it
 #   tools/setup.sh peers      .venv-bench with what the benchmarks measure us against
-#   tools/setup.sh clients    the real programs that tests/clients opens files in
+#   tools/setup.sh clients    the real programs that tests/clients opens files in, vpype in .venv-vpype
 #   tools/setup.sh bare       what makes a bare system
 #
 # PYTHON is the interpreter, VENV the folder of the environment; with LOWEST=1 it gets the oldest versions that
@@ -17,6 +17,7 @@ cd "$(dirname "$0")/.."
 python=${PYTHON:-python3}
 venv=${VENV:-.venv}
 peers=.venv-bench
+plotting=.venv-vpype
 log=
 
 say() { printf '%s\n' "setup: $*" >&2; }
@@ -168,7 +169,16 @@ clients_ready() {
     for name in chromium-browser google-chrome; do
         ! command -v $name >/dev/null || browser=$name:chromium
     done
-    programs_ready inkscape:inkscape librecad:librecad qpdf:qpdf pdftocairo:poppler-utils mutool:mupdf-tools $browser
+    programs_ready inkscape:inkscape librecad:librecad qpdf:qpdf pdftocairo:poppler-utils mutool:mupdf-tools \
+        gs:ghostscript $browser
+    # Inkscape's writers of other formats are Python, and take the system's.
+    /usr/bin/python3 -c 'import cssselect, lxml, numpy' 2>/dev/null ||
+        system_needs python3-cssselect python3-lxml python3-numpy
+    # vpype asks for other versions of what we ask for, and gets the ones that the benchmarks pin.
+    python_known
+    environment "$plotting"
+    step "installing vpype into $plotting (pip)" pip_install "$plotting" --constraint benchmarks/requirements.txt vpype
+    rm -f "$plotting/.unfinished"
 }
 
 case ${1:-} in

@@ -107,20 +107,24 @@ def compile_command(
     """Compile recipes to files.
 
     A RECIPE is a TOML file, or an SVG, PDF, DXF or PNG that was compiled from one. The files of a recipe
-    are written all or not at all, as DIR/NAME.SUFFIX.
+    are written all or not at all, as DIR/NAME.SUFFIX, but for PNGs where the system lacks what draws them.
     """
     from pathlib import Path
 
-    from batik_vector.command.jobs import planned, read_jobs, run
+    from batik_vector.command.jobs import planned, read_jobs, ready, run
 
     _ready()
     with _report(as_json) as report:
-        jobs = planned(read_jobs(recipes, overrides), Path(folder), formats)
+        jobs, lacking = ready(planned(read_jobs(recipes, overrides), Path(folder), formats))
         for job, tell in _progress(jobs, as_json):
             with _each(report):
                 done = run(job, tell)
                 report["recipes"].append(done)
                 _tell_files(done)
+        for error in lacking:
+            # What can be made is made, and this is the last that people read.
+            with _each(report):
+                raise error
 
 
 def _tell_files(done: dict[str, Any]) -> None:

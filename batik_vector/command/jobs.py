@@ -7,6 +7,7 @@ import os
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
@@ -14,7 +15,7 @@ import shapely
 
 from batik_vector.artwork import Artwork, Layer, Page
 from batik_vector.compiling.compiler import compile_cloth, compile_recipe
-from batik_vector.errors import ExportError, Fault, GeometryError, RecipeError, SeamError
+from batik_vector.errors import ExportError, Fault, GeometryError, MissingLibraryError, RecipeError, SeamError
 from batik_vector.export import FORMATS, write_all_whole, write_page
 from batik_vector.recipe.loading import load_recipe, located
 from batik_vector.recipe.model import OutputSpec, Recipe
@@ -90,6 +91,20 @@ def planned(jobs: Sequence[Job], folder: Path, formats: Sequence[str] = ()) -> l
     if faults:
         raise RecipeError(faults)
     return plans
+
+
+def ready(jobs: Sequence[Job]) -> tuple[list[Job], list[MissingLibraryError]]:
+    """Return jobs without the files that this system cannot make, and what it lacks, each told once."""
+    lacking: dict[str, MissingLibraryError] = {}
+    for name in dict.fromkeys(output.format for job in jobs for _, output in job.files):
+        try:
+            FORMATS[name].check_ready()
+        except MissingLibraryError as error:
+            lacking[name] = error
+    left = [
+        replace(job, files=tuple(each for each in job.files if each[1].format not in lacking)) for job in jobs
+    ]
+    return [job for job in left if job.files], list(lacking.values())
 
 
 def _outputs(recipe: Recipe, formats: Sequence[str]) -> Iterator[OutputSpec]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
+from batik_vector.tiling.symmetry.machine_fit import per_cent
 from batik_vector.units import format_mm
 
 MOST_FAULTS = 20
@@ -156,7 +157,8 @@ def made_of(done: dict[str, Any]) -> Iterator[str]:
     """Yield in lines how a compiled recipe came out: what was stretched, what was tossed."""
     across, along = done.get("stretch_percent", (0.0, 0.0))
     if max(abs(across), abs(along)) >= TOLD_PERCENT:
-        yield f"stretched by {across:+.3g} % across and {along:+.3g} % along the cloth"
+        ways = (per_cent(1 + share / 100) for share in (across, along))
+        yield "stretched by {} across and {} along the cloth".format(*ways)
     for toss in done.get("tossed", ()):
         counts = ", ".join(
             f"{count} {name}" for name, count in zip(toss["motifs"], toss["counts"], strict=True)
@@ -168,7 +170,7 @@ def made_of(done: dict[str, Any]) -> Iterator[str]:
     for number, fits in _by_border(done.get("yardage", {}).get("borders", ())).items():
         sides = ", ".join(f"{fit['side']} {fit['periods']:g}" for fit in fits)
         worst = max((fit["stretch"] for fit in fits), key=lambda stretch: abs(stretch - 1))
-        yield f"border[{number}]: periods {sides}; stretched by {100 * (worst - 1):+.3g} % at most"
+        yield f"border[{number}]: periods {sides}; stretched by {per_cent(worst)} at most"
 
 
 def _by_border(fits: Iterable[dict[str, Any]]) -> dict[int, list[dict[str, Any]]]:

@@ -25,8 +25,10 @@ def write_starter(starter: Path, name: str | None, path: str | None, force: bool
         force: whether a file that is there is replaced.
 
     Raises:
-        ExportError: where the file cannot be written, or is there already.
+        ExportError: where the file cannot be written, or is there already, or its name is a path.
     """
+    if path is None and name is not None and any(each in name for each in (os.sep, os.altsep) if each):
+        raise ExportError(f'"{name[:60]}" is a path, expected a name: -o FILE says where the file goes')
     text = starter.read_text("utf-8")
     if name is not None:
         title = quoted(name.removesuffix(".toml").encode("utf-8", "replace").decode("utf-8"))
@@ -49,4 +51,4 @@ def write_starter(starter: Path, name: str | None, path: str | None, force: bool
 
 def _file_name(name: str) -> str:
     name = name.removesuffix(".toml")
-    return f"{_FILE_NAME.sub('-', os.path.basename(name)).strip('.-').lower() or 'recipe'}.toml"
+    return f"{_FILE_NAME.sub('-', name).strip('.-').lower() or 'recipe'}.toml"

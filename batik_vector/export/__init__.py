@@ -69,6 +69,16 @@ class Format:
     says: str
     module: str
 
+    def check_ready(self) -> None:
+        """Raise where this system lacks what the format needs.
+
+        Raises:
+            MissingLibraryError: with what is to be installed.
+        """
+        check = getattr(import_module(self.module), "check_ready", None)
+        if check is not None:
+            check()
+
     def render(self, page: Page, options: Any) -> bytes:
         """Return the page as a file of this format."""
         data: bytes = import_module(self.module).render(page, options)

@@ -35,7 +35,7 @@ from batik_vector.export.numbers import (
     word,
 )
 from batik_vector.export.options import DxfOptions, DxfVersion
-from batik_vector.export.palette import distinct_aci, dxf_names
+from batik_vector.export.palette import distinct_aci, dxf_names, r12_names
 from batik_vector.export.provenance import ascii_chunks
 from batik_vector.export.walk import Outlines, in_memory, walk
 from batik_vector.units import STEPS_PER_MM
@@ -87,6 +87,7 @@ class _DxfSurface:
     """Puts entities into the R2000 skeleton as they come."""
 
     skeleton = R2000_SKELETON
+    names = staticmethod(dxf_names)
 
     def __init__(self, sink: BinaryIO) -> None:
         self._sink = sink
@@ -96,7 +97,7 @@ class _DxfSurface:
 
     def begin(self, page: Page) -> None:
         self._page = page
-        names = dxf_names(plate.ink.name for plate in page.plates)
+        names = self.names(plate.ink.name for plate in page.plates)
         self._names = [name.encode("ascii") for name in names]
         self._colours = distinct_aci(plate.ink.colour for plate in page.plates)
         self._number = -1
@@ -104,10 +105,11 @@ class _DxfSurface:
         out = _skeleton(self.skeleton)
         for mark, value in self._values().items():
             out = out.replace(f"@{mark}@", value)
-        data = out.encode("ascii").replace(b"@LAYERS@\n", layers).replace(b"@ENTITIES@\n", b"@ENTITIES@")
-        before, self._after = data.split(b"@ENTITIES@")
+        before, self._after = out.encode("ascii").split(b"@ENTITIES@\n")
         # How many handles are given out is known at the end only.
         head, seed, tail = before.partition(b"@HANDSEED@")
+        # Last, because the name of a layer may look like any mark.
+        head, tail = (part.replace(b"@LAYERS@\n", layers) for part in (head, tail))
         self._sink.write(head)
         if seed:
             self._seed_at = self._sink.tell()
@@ -188,6 +190,7 @@ class _R12Surface(_DxfSurface):
     """The same in R12: a POLYLINE, its VERTEX entities and a SEQEND for each contour; no handles."""
 
     skeleton = R12_SKELETON
+    names = staticmethod(r12_names)
 
     def _layer(self, number: int) -> bytes:
         return b"  0\nLAYER\n  2\n%b\n 70\n0\n 62\n%d\n  6\nCONTINUOUS\n" % (

@@ -57,7 +57,7 @@ class SvgOptions:
         Annotated[Length, Between(0.0005, 10)] | None,
         Says("how far fitted curves may stray; the artwork's tolerance if unset"),
     ] = None
-    cloth: Annotated[bool, Says("show the cloth as a layer %cloth, which plotters skip")] = True
+    cloth: Annotated[bool, Says("show the cloth as a layer %99 cloth, which plotters skip")] = True
 
     def __post_init__(self) -> None:
         check(self)
@@ -74,13 +74,21 @@ class PdfOptions:
         Annotated[Length, Between(0.0005, 10)] | None,
         Says("how far fitted curves may stray; the artwork's tolerance if unset"),
     ] = None
-    cloth: Annotated[bool, Says("show the cloth as a layer of its own")] = True
+    cloth: Annotated[
+        bool | None,
+        Says("show the cloth as a layer of its own: unless told, with rgb inks only; with spot inks a plate"),
+    ] = None
     inks: Annotated[PdfInks, Says("inks as screen colours (rgb) or as named separations (spot)")] = (
         PdfInks.RGB
     )
 
     def __post_init__(self) -> None:
         check(self)
+
+    @property
+    def shows_cloth(self) -> bool:
+        """Whether the cloth is drawn. Separations are for printing, and nobody prints the cloth."""
+        return self.inks is PdfInks.RGB if self.cloth is None else self.cloth
 
 
 @frozen

@@ -64,18 +64,37 @@ def ascii_name(name: str) -> str:
     return unicodedata.normalize("NFKD", name).encode("ascii", "ignore").decode("ascii")
 
 
-def dxf_names(names: Iterable[str], longest: int = 31) -> list[str]:
-    """Return layer names of A-Z, 0-9, ``_`` and ``-``, unique, never those DXF keeps for itself."""
-    given = {"0", "DEFPOINTS", ""}
+_NOT_DXF = re.compile(r'[^ -~]+|[<>/\\":;?*|,=`]+')
+_NOT_R12 = re.compile(r"[^A-Z0-9_-]+")
+
+
+def dxf_names(names: Iterable[str], longest: int = 255) -> list[str]:
+    """Return layer names for R2000, as like the names given as DXF allows.
+
+    Case and blanks stay. What AutoCAD refuses in names becomes ``_``, and accents are dropped: readers do not
+    agree on how letters beyond ASCII are written.
+    """
+    stems = (_NOT_DXF.sub("_", ascii_name(name)).strip(" _") for name in names)
+    return _unique((stem or "ink" for stem in stems), longest)
+
+
+def r12_names(names: Iterable[str], longest: int = 31) -> list[str]:
+    """Return layer names for R12, which has none but A-Z, 0-9, ``_`` and ``-``."""
+    stems = (_NOT_R12.sub("_", ascii_name(name).upper()).strip("_") for name in names)
+    return _unique((stem or "INK" for stem in stems), longest)
+
+
+def _unique(stems: Iterable[str], longest: int) -> list[str]:
+    """Return names that DXF does not reserve, and that differ in more than case: it passes over that."""
+    given = {"0", "defpoints"}
     out = []
-    for name in names:
-        stem = re.sub(r"[^A-Z0-9_-]+", "_", ascii_name(name).upper()).strip("_")[:longest]
-        stem = stem or "INK"
+    for whole in stems:
+        stem = whole[:longest].rstrip(" ")
         new, number = stem, 1
-        while new in given:
+        while new.lower() in given:
             number += 1
             new = f"{stem[: longest - 1 - len(str(number))]}_{number}"
-        given.add(new)
+        given.add(new.lower())
         out.append(new)
     return out
 

@@ -5,6 +5,9 @@ written as fast as text, compressed as it comes. Layers are optional-content gro
 which PDF 1.5 has; the page is 1.6 for ``UserUnit``, without which no side may pass 14,400 units = 5.08 m.
 Nothing in the file changes from run to run: no dates, and the ID is a hash of the content.
 
+Where inks are separations, nothing is drawn in any other colour: a fill in RGB is printed with all four
+process inks. So the cloth is left out, or is a separation like the others where it is asked for.
+
 The media box is the cell grown by the page's margins; the bleed box is the cell grown by the bleed; the trim
 box is the cell.
 """
@@ -23,7 +26,7 @@ from batik_vector.export.numbers import WORD, Room, Style, Words, room_for, spel
 from batik_vector.export.options import Curves, PdfInks, PdfOptions
 from batik_vector.export.palette import rgb, xml_label
 from batik_vector.export.provenance import NAMESPACE, xml_fields
-from batik_vector.export.strokes import CONTROL, LINE, MOVE, Strokes, strokes, trim_of
+from batik_vector.export.strokes import CONTROL, LINE, MOVE, Pen, Strokes
 from batik_vector.export.walk import Outlines, in_memory, walk
 from batik_vector.units import STEPS_PER_MM
 
@@ -196,47 +199,44 @@ class _PdfSurface:
         self._sink = sink
         self._options = options
         self._layer_count = 0
-        self._spot_count = 0
 
     def begin(self, page: Page) -> None:
         self._page = _Page(page, self._options)
         chosen = self._options.curve_tolerance or page.tolerance
-        self._tolerance = chosen if self._options.curves is Curves.BEZIER else None
+        self._pen = Pen(page, chosen if self._options.curves is Curves.BEZIER else None)
+        self._number = -1
         self._file = _File(self._sink)
         for number, body in enumerate(self._page.before(), start=1):
             self._file.whole(number, body)
         self._content = _Stream(self._file, self._page.length_number)
         scale = _number(POINTS_PER_STEP / self._page.unit, 16)
         self._content.put(f"{scale} 0 0 {scale} 0 0 cm\n1 J 1 j\n".encode("ascii"))
-        if self._options.cloth:
-            self._layer()
-            # The cloth is no ink: it has no plate, even where inks are separations.
-            fill, _ = _device_colour(page.cloth)
+        if self._options.shows_cloth:
+            fill, _ = self._layer(page.cloth)
             self._content.put(b"%b0 0 %d %d re\nf\n" % (fill.encode("ascii"), *self._page.size))
 
     def ink(self, ink: Ink, pen: int) -> None:
+        self._number += 1
         self._ink = ink
-        self._layer()
+        self._colours = self._layer(ink.colour)
         self._coloured = [False, False]
-        if self._options.inks is PdfInks.SPOT:
-            name = f"S{self._spot_count}"
-            self._spot_count += 1
-            self._colours = (f"/{name} cs 1 scn\n", f"/{name} CS 1 SCN\n")
-        else:
-            self._colours = _device_colour(ink.colour)
 
     def areas(self, outlines: Outlines) -> None:
         if not self._coloured[0]:
             self._coloured[0] = True
             self._content.put(self._colours[0].encode("ascii"))
-        self._content.put(path_operators(self._drawn(outlines), "f*", outlines.unfinished))
+        self._content.put(
+            path_operators(self._pen.strokes(outlines, self._number, "areas"), "f*", outlines.unfinished)
+        )
 
     def lines(self, outlines: Outlines) -> None:
         if not self._coloured[1]:
             self._coloured[1] = True
             width = round(self._ink.width * STEPS_PER_MM)
             self._content.put(f"{self._colours[1]}{width} w\n".encode("ascii"))
-        self._content.put(path_operators(self._drawn(outlines), "S", outlines.unfinished))
+        self._content.put(
+            path_operators(self._pen.strokes(outlines, self._number, "lines"), "S", outlines.unfinished)
+        )
 
     def end(self) -> None:
         if self._layer_count:
@@ -246,16 +246,16 @@ class _PdfSurface:
             self._file.whole(number, body)
         self._file.end()
 
-    def _drawn(self, outlines: Outlines) -> Strokes:
-        margins = self._page.page.margins
-        moved = outlines.moved(margins.left, margins.bottom)
-        return strokes(moved, self._tolerance, trim_of(self._page.page, margins.bottom))
-
-    def _layer(self) -> None:
-        if self._layer_count:
+    def _layer(self, colour: str) -> tuple[str, str]:
+        """Open the next layer; return the operators that set its colour for filling and for stroking."""
+        number = self._layer_count
+        if number:
             self._content.put(b"EMC\n")
-        self._content.put(f"/OC /L{self._layer_count} BDC\n".encode("ascii"))
+        self._content.put(f"/OC /L{number} BDC\n".encode("ascii"))
         self._layer_count += 1
+        if self._page.spots:
+            return f"/S{number} cs 1 scn\n", f"/S{number} CS 1 SCN\n"
+        return _device_colour(colour)
 
 
 class _Page:
@@ -269,9 +269,15 @@ class _Page:
             page.cell.rows + margins.bottom + margins.top,
         )
         self.unit = units_per_user_unit(page)
-        self.layers = ["cloth"] * options.cloth + [plate.ink.name for plate in page.plates]
-        spot = options.inks is PdfInks.SPOT
-        self.spots = [_separation(plate) for plate in page.plates] if spot else []
+        names = [plate.ink.name for plate in page.plates]
+        self.layers = ["cloth"] * options.shows_cloth + names
+        self.spots: list[bytes] = []
+        if options.inks is PdfInks.SPOT:
+            self.spots = [_separation(_plate_name(plate), plate.ink.colour) for plate in page.plates]
+            if options.shows_cloth:
+                # Separations of one name are one plate.
+                ground = "cloth (ground)" if "cloth" in names else "cloth"
+                self.spots.insert(0, _separation(ground, page.cloth))
         first = CONTENT + 3
         self.groups = range(first, first + len(self.layers))
         self.spaces = range(self.groups.stop, self.groups.stop + len(self.spots))
@@ -336,16 +342,21 @@ def _device_colour(colour: str) -> tuple[str, str]:
     return f"{parts} rg\n", f"{parts} RG\n"
 
 
-def _separation(plate: Plate) -> bytes:
-    """Return the colour space of a spot ink: no tint is paper white, full tint its screen colour.
+def _plate_name(plate: Plate) -> str:
+    """Return the name of a plate's separation.
 
     Two names mean every plate and no plate: guides stand on every plate, so that plates can be registered.
     """
-    full = " ".join(_number(part / 255, 5) for part in rgb(plate.ink.colour))
+    if plate.guide:
+        return "All"
+    name = plate.ink.name
+    return f"{name} ink" if name in ("All", "None") else name
+
+
+def _separation(name: str, colour: str) -> bytes:
+    """Return the colour space of a spot ink: no tint is paper white, full tint its screen colour."""
+    full = " ".join(_number(part / 255, 5) for part in rgb(colour))
     tint = f"<< /FunctionType 2 /Domain [0 1] /C0 [1 1 1] /C1 [{full}] /N 1 >>"
-    name = "All" if plate.guide else plate.ink.name
-    if name in ("All", "None") and not plate.guide:
-        name = f"{name} ink"
     return f"[/Separation /{_name(name)} /DeviceRGB {tint}]".encode("ascii")
 
 

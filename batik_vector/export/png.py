@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import zlib
 from dataclasses import replace
-from typing import BinaryIO
+from typing import Any, BinaryIO
 
 from batik_vector.artwork import Artwork, Page
-from batik_vector.errors import UnsupportedByFormatError
+from batik_vector.errors import MissingLibraryError, UnsupportedByFormatError
 from batik_vector.export import svg
 from batik_vector.export.options import PngOptions, Profile, SvgOptions
 from batik_vector.export.provenance import PNG_KEYWORD, ascii_line
@@ -28,6 +28,27 @@ AFTER_HEADER = 8 + 25
 """Bytes of the signature and the IHDR chunk, behind which other chunks may stand."""
 
 DEFAULTS = PngOptions()
+
+
+def _cairosvg() -> Any:
+    try:
+        import cairosvg
+    except (ImportError, OSError) as error:
+        # No wheel brings cairo along, and cairocffi looks for it when it is imported.
+        raise MissingLibraryError(
+            "PNG needs the cairo library, which this system lacks: install libcairo2 (Debian, Ubuntu: apt), "
+            "cairo (macOS: brew) or the GTK runtime (Windows: winget install tschoonj.GTKForWindows)"
+        ) from error
+    return cairosvg
+
+
+def check_ready() -> None:
+    """Raise where no PNG can be written on this system.
+
+    Raises:
+        MissingLibraryError: with what is to be installed.
+    """
+    _cairosvg()
 
 
 def pixel_size(page: Page, dpi: float) -> tuple[int, int]:
@@ -73,9 +94,7 @@ def render(page: Page, options: PngOptions = DEFAULTS) -> bytes:
     drawing = svg.render(_shown(page), SvgOptions(profile=Profile.COMPACT, cloth=options.cloth))
     # Sides are rounded to whole pixels each by itself, and the picture fills them.
     drawing = drawing.replace(b" viewBox=", b' preserveAspectRatio="none" viewBox=', 1)
-    import cairosvg
-
-    data: bytes = cairosvg.svg2png(bytestring=drawing, output_width=width, output_height=height)
+    data: bytes = _cairosvg().svg2png(bytestring=drawing, output_width=width, output_height=height)
     per_metre = round(options.dpi / 0.0254).to_bytes(4, "big")
     chunks = _chunk(b"pHYs", per_metre + per_metre + b"\1")
     chunks += _chunk(b"tEXt", PNG_KEYWORD + b"\0" + ascii_line(page.provenance).encode("ascii"))

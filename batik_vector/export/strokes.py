@@ -2,27 +2,23 @@
 
 from __future__ import annotations
 
-from typing import TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from batik_vector.artwork import Page
+from batik_vector.artwork import Artwork, Page
 from batik_vector.geometry.outlines import Offsets, Outlines, Steps
 from batik_vector.units import STEPS_PER_MM
 from batik_vector.values import frozen
 
-Trim: TypeAlias = tuple[int, int, int, int]
-"""Left, lower, right and upper edge of the trimmed page, in the steps of the outlines."""
+if TYPE_CHECKING:
+    from batik_vector.geometry.continuations import Edges
+    from batik_vector.geometry.inside import Box
+    from batik_vector.geometry.known import Known
 
 MOVE, LINE, CONTROL, PULL, CURVE = range(5)
 """What a point is: where a ring begins, the end of a line, and the three points of a cubic Bézier."""
-
-
-def trim_of(page: Page, below: int) -> Trim:
-    """Return the trim of a page whose lower edge, as the outlines have it, lies ``below`` the trim's."""
-    left, cell = page.margins.left, page.cell
-    return left, below, left + cell.columns, below + cell.rows
 
 
 @frozen
@@ -53,18 +49,26 @@ def straight(outlines: Outlines) -> Strokes:
     return Strokes(outlines.points, kinds, outlines.rings, outlines.marks, outlines.closed)
 
 
-def curved(outlines: Outlines, tolerance: float, trim: Trim) -> Strokes:
+def curved(outlines: Outlines, tolerance: float, edges: Edges, page: Box, known: Known | None) -> Strokes:
     """Return outlines drawn with cubic Béziers that stay within a tolerance (mm) of them.
 
-    A curve keeps a node wherever it meets the trim, since its other half stands on the opposite edge.
+    Args:
+        outlines: in steps from the page's corner.
+        tolerance: in mm.
+        edges: of the trim, in steps. A curve keeps a node wherever it meets them, since its other half stands
+            on the opposite edge.
+        page: what curves do not leave, in steps.
+        known: what is known of the outlines' points at the trim.
     """
     from batik_vector.geometry.bezier import fit_cubics
+    from batik_vector.geometry.inside import kept_inside
 
     around, ends = outlines.repeating()
-    left, low, right, top = (edge / STEPS_PER_MM for edge in trim)
-    edges = (left, right), (low, top)
-    cubics = fit_cubics(around / STEPS_PER_MM, ends, outlines.closed, tolerance, edges)
+    upright, level = (tuple(edge / STEPS_PER_MM for edge in pair) for pair in edges)
+    known = None if known is None else known.taken(outlines.repeated())
+    cubics = fit_cubics(around / STEPS_PER_MM, ends, outlines.closed, tolerance, (upright, level), known)
     control = np.rint(np.asarray(cubics.points) * STEPS_PER_MM).astype(np.int64)
+    control = kept_inside(control, page)
     offsets = np.asarray(cubics.offsets, np.int64)
     count = np.diff(offsets)
     # Each ring starts with its own point; a cubic adds three points, a straight piece one.
@@ -89,6 +93,60 @@ def curved(outlines: Outlines, tolerance: float, trim: Trim) -> Strokes:
     return Strokes(points[used], kinds[used], before[rank], outlines.marks, outlines.closed)
 
 
-def strokes(outlines: Outlines, tolerance: float | None, trim: Trim) -> Strokes:
-    """Return outlines as lines, or as curves within a tolerance where one is given."""
-    return straight(outlines) if tolerance is None else curved(outlines, tolerance, trim)
+class Pen:
+    """Draws the outlines of a page: upwards from its lower left corner, or downwards from its upper one."""
+
+    def __init__(self, page: Page, tolerance: float | None, downwards: bool = False) -> None:
+        """Take a pen.
+
+        Args:
+            page: what is drawn.
+            tolerance: of curves, in mm; without one all is drawn with lines.
+            downwards: whether y points down.
+        """
+        self._page, self._tolerance, self._downwards = page, tolerance, downwards
+        margins, cell = page.margins, page.cell
+        low = margins.top if downwards else margins.bottom
+        self._edges = (margins.left, margins.left + cell.columns), (low, low + cell.rows)
+        width, height = cell.columns + margins.right, cell.rows + margins.bottom + margins.top
+        self._box = 0, 0, margins.left + width, height
+        self._layer: tuple[int, str] | None = None
+
+    def strokes(self, outlines: Outlines, number: int, kind: str) -> Strokes:
+        """Return outlines as they are drawn.
+
+        Args:
+            outlines: of the page, as it gives them.
+            number: of their layer.
+            kind: ``areas`` or ``lines``.
+        """
+        placed = self._placed(outlines)
+        if self._tolerance is None:
+            return straight(placed)
+        return curved(placed, self._tolerance, self._edges, self._box, self._known(placed, number, kind))
+
+    def _placed(self, outlines: Outlines) -> Outlines:
+        margins = self._page.margins
+        if self._downwards:
+            return outlines.flipped(self._page.cell.rows + margins.top, margins.left)
+        return outlines.moved(margins.left, margins.bottom)
+
+    def _known(self, placed: Outlines, number: int, kind: str) -> Known | None:
+        from batik_vector.geometry.continuations import ends_of, known_at, together
+
+        assert self._tolerance is not None
+        own = ends_of(placed, self._edges)
+        others, shifts = own, np.zeros((1, 2), np.int64)
+        # A tile goes on at the opposite edge, and may come in pieces.
+        if isinstance(self._page, Artwork) and not self._page.bleed:
+            if self._layer != (number, kind):
+                pieces = self._page.areas(number) if kind == "areas" else self._page.lines(number)
+                self._others = together([ends_of(self._placed(each), self._edges) for each in pieces])
+                self._layer = number, kind
+            others, shifts = self._others, self._shifts()
+        return known_at(own, others, shifts, len(placed.points), self._tolerance)
+
+    def _shifts(self) -> Steps:
+        """Return where the tile's neighbours stand, and itself."""
+        basis = np.array(self._page.cell.lattice) * (1, -1 if self._downwards else 1)
+        return np.asarray(np.array([(i, j) for i in (0, -1, 1) for j in (0, -1, 1)]) @ basis, np.int64)

@@ -5,6 +5,10 @@ a viewBox in mm; layers as direct children of the root, with Inkscape's group mo
 letters and digits for Illustrator; the label begins with the pen's number, as AxiDraw and vpype read it;
 absolute coordinates on whole micrometres; no transforms, styles, references or clips.
 
+What no pen draws stays apart. AxiDraw leaves out layers whose label begins with ``%``; vpype does not, and
+goes by the first number in a label or else by the layer's order: as ``%99 cloth`` the cloth is a layer of its
+own there. It is a polygon, which Inkscape's writers of DXF leave out.
+
 The page is the cell, grown by the page's margins. svgwrite makes the furniture: root, metadata and
 layers; the paths are put between as they come.
 """
@@ -39,7 +43,7 @@ from batik_vector.export.numbers import (
 from batik_vector.export.options import Curves, Profile, SvgOptions
 from batik_vector.export.palette import hex_colour, xml_label
 from batik_vector.export.provenance import NAMESPACE, xml_fields
-from batik_vector.export.strokes import CONTROL, CURVE, LINE, MOVE, Strokes, strokes, trim_of
+from batik_vector.export.strokes import CONTROL, CURVE, LINE, MOVE, Pen, Strokes
 from batik_vector.export.walk import Outlines, in_memory, walk
 from batik_vector.geometry.outlines import Index
 from batik_vector.units import STEPS_PER_MM, format_mm
@@ -56,6 +60,8 @@ PLACE = "\0"
 HOLE = "place"
 PATH = b'<path d="'
 END = b'" />\n'
+CLOTH_NUMBER = 99
+"""Layer of the cloth in programs that sort by numbers; guides come before it, pens count from 1."""
 NAMED_VIEW = {"id": "namedview", "inkscape:document-units": "mm", "units": "mm"}
 """Tells Inkscape to show millimetres on its rulers."""
 
@@ -133,10 +139,8 @@ class _SvgSurface:
         self._ids = Ids()
 
     def begin(self, page: Page) -> None:
-        self._page = page
-        self._rows = page.cell.rows + page.margins.bottom + page.margins.top
         chosen = self._options.curve_tolerance or page.tolerance
-        self._tolerance = chosen if self._options.curves is Curves.BEZIER else None
+        self._pen = Pen(page, chosen if self._options.curves is Curves.BEZIER else None, downwards=True)
         # Words, then the name of a place, then words and so on.
         self._furniture = iter(furniture(page, self._options).split(PLACE))
         self._number = -1
@@ -180,9 +184,7 @@ class _SvgSurface:
         if kind != self._kind:
             self._go_to(f"{kind} {self._number}")
             self._kind, self._points, self._unfinished = kind, 0, False
-        margins = self._page.margins
-        flipped = outlines.flipped(self._rows - margins.bottom, margins.left)
-        drawn = strokes(flipped, self._tolerance, trim_of(self._page, margins.top))
+        drawn = self._pen.strokes(outlines, self._number, kind)
         if self._compact:
             self._write_blocks(drawn, outlines.unfinished)
         else:
@@ -267,15 +269,13 @@ def furniture(page: Page, options: SvgOptions) -> str:
     drawing.set_desc(title=xml_label(page.title))
     drawing.set_metadata(_metadata(page))
     drawing.add(_Element("sodipodi:namedview", NAMED_VIEW))
+    cloth, labels = layer_labels(page)
     if options.cloth:
-        ground = _layer(-1, "%cloth", {"fill": hex_colour(page.cloth)})
-        ground.add(_Element("path", {"d": f"M0 0 {width} 0 {width} {height} 0 {height}Z"}))
+        ground = _layer(-1, cloth, {"fill": hex_colour(page.cloth)})
+        ground.add(_Element("polygon", {"points": f"0 0 {width} 0 {width} {height} 0 {height}"}))
         drawing.add(ground)
-    pen = 0
     for number, plate in enumerate(page.plates):
-        pen += not plate.guide
-        label = xml_label(plate.ink.name)
-        drawing.add(_inked(plate, number, f"%{label}" if plate.guide else f"{pen} {label}", options.profile))
+        drawing.add(_inked(plate, number, labels[number], options.profile))
     tree = drawing.get_xml()
     ET.indent(tree, space="")
     body = ET.tostring(tree, encoding="unicode")
@@ -283,6 +283,27 @@ def furniture(page: Page, options: SvgOptions) -> str:
     body = body.replace("\r", "&#13;")
     body = re.sub(f'<{HOLE} at="({PLACE}[^{PLACE}]*{PLACE})" />\n', r"\1", body)
     return f'<?xml version="1.0" encoding="UTF-8"?>\n{body}\n'
+
+
+def layer_labels(page: Page) -> tuple[str, list[str]]:
+    """Return the labels of the cloth and of all other layers, each with a number of its own.
+
+    Inks have the numbers of their pens; what no pen draws begins with ``%``, and its numbers lie far behind.
+    """
+    guides = sum(plate.guide for plate in page.plates)
+    last = CLOTH_NUMBER
+    while last - guides <= len(page.plates) - guides:
+        last = last * 10 + 9
+    pen, guide, labels = 0, last - guides, []
+    for plate in page.plates:
+        label = xml_label(plate.ink.name)
+        if plate.guide:
+            labels.append(f"%{guide} {label}")
+            guide += 1
+        else:
+            pen += 1
+            labels.append(f"{pen} {label}")
+    return f"%{last} cloth", labels
 
 
 def _inked(plate: Plate, number: int, label: str, profile: Profile) -> Any:
@@ -306,7 +327,8 @@ def _inked(plate: Plate, number: int, label: str, profile: Profile) -> Any:
         group = layer
         if len(kinds) > 1:
             group = layer.add(Group(debug=False))
-            group.attribs.update(style)
+            # Inkscape's R12 writer goes by the label of a path's own group.
+            group.attribs.update({"inkscape:label": label, **style})
         group.add(_Element(HOLE, {"at": f"{PLACE}{kind} {number}{PLACE}"}))
     return layer
 

@@ -19,6 +19,7 @@ from __future__ import annotations
 import numpy as np
 
 from batik_vector.errors import GeometryError
+from batik_vector.geometry.known import Known
 from batik_vector.geometry.sampling import Array, Indices, Points
 from batik_vector.geometry.stretches import (
     NO_EDGES,
@@ -77,7 +78,12 @@ class Cubics:
 
 
 def fit_cubics(
-    coords: Points, offsets: Indices, closed: Mask, tolerance: float, edges: Edges = NO_EDGES
+    coords: Points,
+    offsets: Indices,
+    closed: Mask,
+    tolerance: float,
+    edges: Edges = NO_EDGES,
+    known: Known | None = None,
 ) -> Cubics:
     """Fit cubic Béziers to polylines and rings.
 
@@ -94,6 +100,7 @@ def fit_cubics(
         tolerance: mm. Fewer cubics the larger it is, as its sixth root.
         edges: lines (mm) on which every vertex stays a node: those along which a tile was cut, where the
             curve must meet its other half.
+        known: what is known of vertices beyond what the lines themselves show.
 
     Returns:
         The cubics. Neighbours share end points bit for bit. A ring ends where it begins, which is at
@@ -105,11 +112,11 @@ def fit_cubics(
     if not (np.isfinite(coords).all() and 0 < tolerance < np.inf):
         raise GeometryError("cannot fit curves to coordinates that are not finite, or without a tolerance")
     closed = np.asarray(closed, bool)
-    lines, breaks = read_lines(coords, np.asarray(offsets, np.intp), closed, tolerance, edges)
+    lines, breaks = read_lines(coords, np.asarray(offsets, np.intp), closed, tolerance, edges, known)
     path, start, stop, smooth_ring = stretches(lines, closed, breaks)
     # A stretch of one edge has no vertices to bend it.
     bent = stop - start > 1
-    runs = smooth_runs(lines, path, start, stop, bent, smooth_ring, max(tolerance, SAMPLING))
+    runs = smooth_runs(lines, path, start, stop, bent, smooth_ring, max(tolerance, SAMPLING), known)
     a, b, handles, failed = _fit_runs(runs, tolerance)
     position = ranges(start[bent], runs.edges + 1)
     begin, end = np.concatenate([start[~bent], position[a]]), np.concatenate([stop[~bent], position[b]])

@@ -71,6 +71,11 @@ class Outlines:
         points = np.insert(self.points, self.rings[shut + 1], self.points[self.rings[shut]], axis=0)
         return points, self.rings + np.r_[0, np.cumsum(self.closed)]
 
+    def repeated(self) -> Index:
+        """Return for each point of :meth:`repeating` which of the points it is."""
+        shut = np.flatnonzero(self.closed)
+        return np.insert(np.arange(len(self.points)), self.rings[shut + 1], self.rings[shut])
+
     def taken(self, which: Index, shift: Steps | None = None) -> Outlines:
         """Return copies of some marks, without names.
 

@@ -11,6 +11,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from batik_vector.geometry.known import BREAK, UNKNOWN, Known
 from batik_vector.geometry.sampling import Array, Indices, Points, thin
 from batik_vector.values import frozen
 
@@ -47,7 +48,7 @@ class Lines:
     """Polylines without their useless vertices; a ring's first vertex is not repeated.
 
     One item per vertex, and per edge from it to ``after``; the last vertex of an open line has an edge
-    of length 0 and follows itself.
+    of length 0 and follows itself. ``source`` is the number of each vertex among those given.
     """
 
     at: Complex
@@ -58,6 +59,7 @@ class Lines:
     heading: Array
     turn: Array
     end: Mask
+    source: Indices
 
 
 @frozen
@@ -98,17 +100,30 @@ def _wrap(angle: Array) -> Array:
 
 
 def read_lines(
-    coords: Points, offsets: Indices, closed: Mask, tolerance: float, edges: Edges = NO_EDGES
+    coords: Points,
+    offsets: Indices,
+    closed: Mask,
+    tolerance: float,
+    edges: Edges = NO_EDGES,
+    known: Known | None = None,
 ) -> tuple[Lines, Mask]:
     """Return the polylines, without vertices that say nothing, and the breaks between their stretches.
 
-    Vertices on ``edges`` are breaks.
+    Vertices on ``edges`` are breaks, and so are those that are known to be.
     """
-    at, line = _distinct(coords, offsets, closed)
+    at, line, source = _distinct(coords, offsets, closed)
     flat = flatness(tolerance)
     keep = _bends(at, line, closed, flat) | _on(edges, at)
-    lines = _lines(at[keep], line[keep], closed)
-    breaks = _breaks(lines, tolerance) | _on(edges, lines.at)
+
+    def read() -> tuple[Lines, Mask]:
+        lines = _lines(at[keep], line[keep], closed, source[keep])
+        breaks = _breaks(lines, tolerance)
+        if known is not None:
+            joint = known.joint[lines.source]
+            breaks = np.where(joint == UNKNOWN, breaks, joint == BREAK)
+        return lines, breaks | _on(edges, lines.at)
+
+    lines, breaks = read()
     # Where curves change sides they are flat too, and chords get too long there to tell how they bend.
     turn = np.abs(lines.turn)
     height = lines.length * np.maximum(turn, turn[lines.after]) / 8
@@ -118,8 +133,7 @@ def read_lines(
     again = coarse[edge] & ~keep
     if again.any():
         keep |= again
-        lines = _lines(at[keep], line[keep], closed)
-        breaks = _breaks(lines, tolerance) | _on(edges, lines.at)
+        lines, breaks = read()
     return lines, breaks
 
 
@@ -127,18 +141,19 @@ def _on(edges: Edges, at: Complex) -> Mask:
     return np.isin(at.real, edges[0]) | np.isin(at.imag, edges[1])
 
 
-def _distinct(coords: Points, offsets: Indices, closed: Mask) -> tuple[Complex, Indices]:
-    """Return the vertices and their lines, none repeated, of those lines that have a length."""
+def _distinct(coords: Points, offsets: Indices, closed: Mask) -> tuple[Complex, Indices, Indices]:
+    """Return the vertices, their lines and numbers, none repeated, of those lines that have a length."""
     line = np.repeat(np.arange(len(closed)), np.diff(offsets))
     at = np.ascontiguousarray(coords, float).view(complex).ravel()
     keep = np.ones(len(at), bool)
     keep[1:] = (at[1:] != at[:-1]) | (line[1:] != line[:-1])
+    source = np.flatnonzero(keep)
     at, line = at[keep], line[keep]
     bounds = np.flatnonzero(np.r_[True, line[1:] != line[:-1], True]) if len(at) else np.zeros(1, np.intp)
     head, tail = bounds[:-1], bounds[1:] - 1
     keep = np.repeat(tail > head, np.diff(bounds))
     keep[tail[closed[line[head]] & (at[head] == at[tail])]] = False
-    return at[keep], line[keep]
+    return at[keep], line[keep], source[keep]
 
 
 def _bends(at: Complex, line: Indices, closed: Mask, flat: float) -> Mask:
@@ -150,7 +165,7 @@ def _bends(at: Complex, line: Indices, closed: Mask, flat: float) -> Mask:
     # Both ends of a line are kept, though a ring may begin amid a straight edge.
     for end in (bounds[:-1], bounds[1:] - 1):
         kept = np.flatnonzero(keep)
-        lines = _lines(at[kept], line[kept], closed)
+        lines = _lines(at[kept], line[kept], closed, kept)
         i = np.searchsorted(kept, end)
         i = i[closed[line[end]] & (np.bincount(line[kept])[line[end]] > 2)]
         way, off = (
@@ -162,7 +177,7 @@ def _bends(at: Complex, line: Indices, closed: Mask, flat: float) -> Mask:
     return keep
 
 
-def _lines(at: Complex, line: Indices, closed: Mask) -> Lines:
+def _lines(at: Complex, line: Indices, closed: Mask, source: Indices) -> Lines:
     here = np.arange(len(at))
     first = np.searchsorted(line, line, "left")
     last = np.searchsorted(line, line, "right") - 1
@@ -173,7 +188,7 @@ def _lines(at: Complex, line: Indices, closed: Mask) -> Lines:
     heading = np.angle(edge)
     end = (before == here) | (after == here)
     turn = np.where(end, 0.0, _wrap(heading - heading[before]))
-    return Lines(at, line, before, after, np.abs(edge), heading, turn, end)
+    return Lines(at, line, before, after, np.abs(edge), heading, turn, end, source)
 
 
 def _breaks(lines: Lines, tolerance: float) -> Mask:
@@ -249,9 +264,16 @@ def stretches(lines: Lines, closed: Mask, breaks: Mask) -> tuple[Indices, Indice
 
 
 def smooth_runs(
-    lines: Lines, path: Indices, start: Indices, stop: Indices, bent: Mask, smooth_ring: Mask, scale: float
+    lines: Lines,
+    path: Indices,
+    start: Indices,
+    stop: Indices,
+    bent: Mask,
+    smooth_ring: Mask,
+    scale: float,
+    known: Known | None = None,
 ) -> Runs:
-    """Give the bent stretches their smooth interpretation."""
+    """Give the bent stretches their smooth interpretation, with the directions that are known."""
     edges = stop[bent] - start[bent]
     size = edges + 1
     vertex = path[ranges(start[bent], size)]
@@ -272,6 +294,10 @@ def smooth_runs(
         bow = _wrap(inner - heading[far])
         reach = np.where(smooth_ring[bent], np.pi, np.abs(bow) + 2 * scale / np.abs(chord[edge]))
         heading[end] = _end_heading(heading[end], inner, bow, reach, single[beyond], lines.heading[beyond])
+    if known is not None:
+        told = known.leaving[lines.source[vertex]]
+        told[last] = known.arriving[lines.source[vertex[last]]]
+        heading = np.where(np.isnan(told), heading, told)
     angle = np.angle(chord)
     rise = 2 * np.tan(np.clip(_wrap(heading - angle), -1.4, 1.4) / 2)
     fall = 2 * np.tan(np.clip(_wrap(angle - np.roll(heading, -1)), -1.4, 1.4) / 2)

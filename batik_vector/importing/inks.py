@@ -26,12 +26,13 @@ Indices = NDArray[np.intp]
 Key = tuple[str, str, float]
 """What makes an ink: a layer's name, a colour, and the breadth of its lines, 0 for areas."""
 
-CLOTH = ("%cloth", "cloth")
 MAX_INKS = 300
 """Inks past which a drawing is refused: cloth is dyed in some ten."""
 PAGE_SLACK_MM = 1e-3
 """How far a ground may fall short of its page and still be the cloth."""
 _PEN = re.compile(r"^\d+ +(?=\S)")
+_CLOTH = re.compile(r"(?:%(?:\d+ +)?)?cloth", re.IGNORECASE)
+"""The cloth's layer: ours is ``%99 cloth``, and was ``%cloth``."""
 
 
 @frozen(eq=False)
@@ -160,7 +161,7 @@ def _stroke_notes(document: Document, marks: Marks, cell: Cell, bleed: float, in
 
 def _without_cloth(document: Document, marks: Marks, cell: Cell, bleed: float) -> tuple[Marks, str]:
     """Take the ground out: what lies in a layer "cloth", or else a first shape as large as the page."""
-    label = np.array([shape.label.lower() in CLOTH for shape in marks.shapes])
+    label = np.array([bool(_CLOTH.fullmatch(shape.label)) for shape in marks.shapes])
     ground = label[marks.area_shape] if len(marks.areas) else np.empty(0, bool)
     if not ground.any() and len(marks.areas):
         first = int(marks.area_shape[0])

@@ -134,3 +134,37 @@ def page_mm(pdf: Path, box: str = "MediaBox") -> tuple[float, float, float, floa
             left, low, right, high = (float(word) * 25.4 / 72 for word in line.split()[1:])
             return left, low, right, high
     raise AssertionError(f"pdfinfo names no {box}")
+
+
+ROOT = Path(__file__).parents[2]
+
+
+def vpype(svg: Path) -> Path:
+    """Return the SVG that vpype writes of what it has read: a layer for each of its pens."""
+    out = svg.with_name("vpype.svg")
+    run(str(ROOT / ".venv-vpype" / "bin" / "vpype"), "read", svg, "write", out, home=svg.parent)
+    return out
+
+
+def inkscape_export(svg: Path, kind: str) -> Path:
+    """Return what Inkscape makes of a drawing as another kind of file: ``hpgl``, or ``dxf``, which is R12."""
+    out = svg.with_suffix(f".{kind}")
+    run("inkscape", f"--export-type={kind}", f"--export-filename={out}", svg, home=svg.parent)
+    return out
+
+
+def inkscape_r14(svg: Path) -> Path:
+    """Return what Inkscape writes as a DXF of release 14, as polylines; only its window can ask for it."""
+    out = svg.with_suffix(".r14.dxf")
+    folder = run("inkscape", "--system-data-directory", home=svg.parent).splitlines()[-1]
+    script = Path(folder, "extensions", "dxf_outlines.py")
+    run("/usr/bin/python3", script, "--POLY=true", f"--output={out}", svg, home=svg.parent)
+    return out
+
+
+def plates(pdf: Path, per_mm: float) -> dict[str, Path]:
+    """Return the plates that Ghostscript separates a page into: pictures in which ink is black, by name."""
+    out = pdf.with_name("plate.tif")
+    device = ("-sDEVICE=tiffsep", "-dGraphicsAlphaBits=4", f"-r{dpi(per_mm)}", f"-sOutputFile={out}")
+    run("gs", "-q", "-dNOPAUSE", "-dBATCH", "-dSAFER", *device, pdf, home=pdf.parent)
+    return {path.stem[len("plate(") : -1]: path for path in pdf.parent.glob("plate(*).tif")}

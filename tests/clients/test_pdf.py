@@ -52,7 +52,7 @@ def test_variants_look_alike(
     scale = per_mm(lopsided)
     options = VARIANTS[variant]
     picture = load(viewer(written(lopsided, tmp_path, options), scale))
-    known = reference(render(lopsided, "svg", SvgOptions(cloth=options.cloth)), scale)
+    known = reference(render(lopsided, "svg", SvgOptions(cloth=options.shows_cloth)), scale)
     assert differing(picture, known) < ALIKE
 
 

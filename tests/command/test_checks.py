@@ -246,6 +246,19 @@ def test_every_kind_of_our_own_drawings_is_known_again(desk: Path, output: str) 
     assert (facts["differences"], facts["broken"]) == ([], [])
 
 
+def test_drawings_from_before_the_cloth_had_a_number_are_known_again(desk: Path) -> None:
+    path = Path(compiled())
+    ground = '<polygon points="0 0 640 0 640 320 0 320" />'
+    text = path.read_text("utf-8")
+    for new, old in (("%99 cloth", "%cloth"), (ground, '<path d="M0 0 640 0 640 320 0 320Z" />')):
+        assert text.count(new) == 1
+        text = text.replace(new, old)
+    path.write_text(text)
+    facts = checked(str(path))
+    assert (facts["differences"], facts["broken"]) == ([], [])
+    assert [layer["ink"] for layer in facts["layers"]] == ["wax"]
+
+
 def test_a_bleed_is_known_and_measured(desk: Path) -> None:
     Path("k.toml").write_text(CROSSING)
     artwork = with_bleed(compile_recipe(load_recipe("k.toml")), 5.0)

@@ -80,13 +80,16 @@ def svg_layers(data: bytes) -> dict[str, ET.Element]:
 
 
 def svg_rings(layer: ET.Element, filled: bool) -> list[Ring]:
-    """Rings of a layer's paths that are filled, or stroked."""
+    """Rings of a layer's paths and polygons that are filled, or stroked."""
     rings = []
     for group in layer.iter(f"{SVG}g"):
         fill = group.get("fill")
         if fill is not None and (fill != "none") == filled:
             for path in group.findall(f"{SVG}path"):
                 rings += svg_path(path.get("d", ""))
+            for polygon in group.findall(f"{SVG}polygon"):
+                numbers = [float(number) for number in polygon.get("points", "").split()]
+                rings.append(Ring(list(zip(numbers[0::2], numbers[1::2], strict=True)), closed=True))
     return rings
 
 

@@ -7,18 +7,19 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pikepdf
 import pytest
 import shapely
 from ezdxf import recover
 from ezdxf.filemanagement import read
 
 from batik_vector.artwork import Artwork, Cell, Ink, Layer, Provenance
-from batik_vector.export import dxf, dxf_skeleton
+from batik_vector.export import dxf, dxf_skeleton, pdf, svg
 from batik_vector.export.options import DxfOptions, DxfVersion
-from batik_vector.export.palette import ACI, distinct_aci, dxf_names, rgb
+from batik_vector.export.palette import ACI, distinct_aci, dxf_names, r12_names, rgb
 
 from .drawings import area_of, disc, empty, geometries, length_of, sample
-from .readers import Ring
+from .readers import Ring, svg_layers
 
 pytestmark = pytest.mark.filterwarnings(
     "ignore::DeprecationWarning:ezdxf", "ignore::DeprecationWarning:pyparsing"
@@ -28,6 +29,11 @@ VERSIONS = list(DxfVersion)
 
 def written(artwork: Artwork, version: DxfVersion = DxfVersion.R2000) -> bytes:
     return dxf.render(artwork, DxfOptions(version))
+
+
+def name(version: DxfVersion, ink: str) -> str:
+    """The layer of an ink."""
+    return (dxf_names if version is DxfVersion.R2000 else r12_names)([ink])[0]
 
 
 def opened(artwork: Artwork, version: DxfVersion = DxfVersion.R2000) -> Any:
@@ -52,16 +58,16 @@ def rings(document: Any, layer: str) -> list[Ring]:
 def test_areas_and_lengths_are_the_artworks(version: DxfVersion, bleed: float) -> None:
     artwork = sample(bleed)
     document = opened(artwork, version)
-    wax = rings(document, "WAX")
+    wax = rings(document, name(version, "wax"))
     assert sum(r.area for r in wax) == pytest.approx(area_of(artwork, 0), abs=1e-9)
     assert all(r.closed for r in wax)
-    soga = rings(document, "SOGA_BROWN")
+    soga = rings(document, name(version, "soga brown"))
     assert [r.closed for r in soga] == [False, True, False]
     assert sum(r.length for r in soga) == pytest.approx(length_of(artwork, 1), abs=1e-9)
     assert soga[0].points == [(1, 1), (39, 1), (39, 3.5)]
     for ring in wax + soga:
         assert ring.points[0] != ring.points[-1]
-    assert [r.closed for r in rings(document, "INDIGO_2")] == [True, False]
+    assert [r.closed for r in rings(document, name(version, "Indigo_2"))] == [True, False]
 
 
 @pytest.mark.parametrize("version", VERSIONS)
@@ -76,7 +82,7 @@ def test_ezdxf_finds_nothing_to_mend(version: DxfVersion, artwork: Artwork) -> N
 
 def test_the_audit_can_fail() -> None:
     broken = written(sample()).replace(
-        b"\n330\n17\n100\nAcDbEntity\n8\nWAX\n", b"\n330\n99\n100\nAcDbEntity\n8\nW*X\n"
+        b"\n330\n17\n100\nAcDbEntity\n8\nwax\n", b"\n330\n99\n100\nAcDbEntity\n8\nw*x\n"
     )
     audit = read(io.StringIO(broken.decode("ascii"))).audit()
     assert audit.errors or audit.fixes
@@ -117,8 +123,12 @@ def test_handles_are_unique_and_below_the_seed() -> None:
 def test_every_ink_is_a_declared_layer(version: DxfVersion) -> None:
     document = opened(sample(), version)
     colours = {layer.dxf.name: layer.dxf.color for layer in document.layers}
-    assert {"0", "WAX", "SOGA_BROWN", "INDIGO_2"} <= set(colours)
-    assert len({colours[n] for n in ("WAX", "SOGA_BROWN", "INDIGO_2")}) == 3
+    inks = {
+        DxfVersion.R2000: {"wax", "soga brown", "Indigo_2"},
+        DxfVersion.R12: {"WAX", "SOGA_BROWN", "INDIGO_2"},
+    }[version]
+    assert {"0", *inks} <= set(colours)
+    assert len({colours[ink] for ink in inks}) == 3
     assert {e.dxf.get("color", 256) for e in document.modelspace()} == {256}
     assert f"\n 70\n{len(colours)}\n" in written(sample(), version).decode("ascii")
 
@@ -131,7 +141,7 @@ def test_many_points_and_large_places(version: DxfVersion) -> None:
         disc(-0.5, -0.25, 0.125),
     )
     layer = Layer(Ink("w", "#000000"), areas=marks)
-    found = rings(opened(Artwork("", Cell(100_000_000, 1_000_000), (layer,)), version), "W")
+    found = rings(opened(Artwork("", Cell(100_000_000, 1_000_000), (layer,)), version), name(version, "w"))
     truth = shapely.get_rings(marks)
     assert len(found) == len(truth)
     for ring, true in zip(found, truth, strict=True):
@@ -160,16 +170,32 @@ def test_ezdxf_keeps_the_provenance_when_it_saves() -> None:
 
 
 @pytest.mark.parametrize(
-    ("names", "expected"),
+    ("names", "expected", "old"),
     [
-        (["wax", "Wax", "WAX"], ["WAX", "WAX_2", "WAX_3"]),
-        (["0", "defpoints", "九", "", "..."], ["0_2", "DEFPOINTS_2", "INK", "INK_2", "INK_3"]),
-        (["Rötel 1/2"], ["ROTEL_1_2"]),
-        (["a" * 40, "a" * 50], ["A" * 31, "A" * 29 + "_2"]),
+        (["wax", "Wax", "WAX"], ["wax", "Wax_2", "WAX_3"], ["WAX", "WAX_2", "WAX_3"]),
+        (
+            ["0", "defpoints", "九", "", "..."],
+            ["0_2", "defpoints_2", "ink", "ink_2", "..."],
+            ["0_2", "DEFPOINTS_2", "INK", "INK_2", "INK_3"],
+        ),
+        (["Rötel 1/2"], ["Rotel 1_2"], ["ROTEL_1_2"]),
+        (['a<>/\\":;?*|,=`b\tc '], ["a_b_c"], ["A_B_C"]),
+        (["a" * 40, "a" * 50], ["a" * 40, "a" * 50], ["A" * 31, "A" * 29 + "_2"]),
+        (["a" * 300, "A" * 300], ["a" * 255, "A" * 253 + "_2"], ["A" * 31, "A" * 29 + "_2"]),
     ],
 )
-def test_names(names: list[str], expected: list[str]) -> None:
+def test_names(names: list[str], expected: list[str], old: list[str]) -> None:
     assert dxf_names(names) == expected
+    assert r12_names(names) == old
+
+
+def test_inks_are_called_alike_in_every_format() -> None:
+    inks = [layer.ink.name for layer in sample().layers[:2]]
+    assert inks == ["wax", "soga brown"]
+    assert {each.dxf.name for each in opened(sample()).layers} >= set(inks)
+    with pikepdf.open(io.BytesIO(pdf.render(sample()))) as document:
+        assert {str(group.Name) for group in document.Root.OCProperties.OCGs} >= set(inks)
+    assert [label.split(" ", 1)[1] for label in svg_layers(svg.render(sample()))][1:3] == inks
 
 
 def test_colours_are_near_and_distinct() -> None:
@@ -193,4 +219,4 @@ def test_an_ink_named_like_a_mark_of_the_skeleton_does_no_harm() -> None:
     document = opened(
         replace(sample(provenance=Provenance("@LAYERS@ @ENTITIES@", 1, "@TOP@")), layers=(layer,))
     )
-    assert len(rings(document, "ENTITIES")) == 3
+    assert len(rings(document, "@ENTITIES@")) == 3

@@ -120,7 +120,7 @@ def test_a_polygon_longer_than_a_path_is_parted_from_others_the_same_in_pieces(
     layer = Layer(Ink("wax", "#f4efe2"), geometries(disc(50, 50, 8), comb, disc(20, 50, 8)))
     artwork = Artwork("comb", Cell(100_000, 100_000), (layer,))
     options = SvgOptions(profile="compact")  # type: ignore[arg-type]
-    assert svg.render(artwork, options).count(b"<path ") == 1 + 3
+    assert svg.render(artwork, options).count(b"<path ") == 3
     for rings in (1, 3, 5):
         assert svg.render(InPieces(artwork, rings), options) == svg.render(artwork, options)
 
@@ -159,16 +159,16 @@ def test_every_format_reads_back_as_the_cloth() -> None:
         [list(point) for point in each.get_points("xy")] for each in drawing.modelspace().query("LWPOLYLINE")
     ]
     assert sorted(polylines) == sorted(expected)
-    assert {each.dxf.layer for each in drawing.modelspace()} == {"WAX", "SOGA", "MARKS"}
+    assert {each.dxf.layer for each in drawing.modelspace()} == {"wax", "soga", "marks"}
 
     layers = svg_layers(svg.render(page))
-    assert list(layers) == ["%cloth", "1 wax", "2 soga", "%marks"]
+    assert list(layers) == ["%99 cloth", "1 wax", "2 soga", "%98 marks"]
     found = [
         np.round((np.array(ring.points) - [corner[0], 0]) * [1, -1] + [0, height - corner[1]], 3).tolist()
         for label, layer in layers.items()
         for filled in (True, False)
         for ring in svg_rings(layer, filled)
-        if label != "%cloth"
+        if label != "%99 cloth"
     ]
     assert sorted(found) == sorted(expected)
 
@@ -190,9 +190,9 @@ def test_guides_stand_on_every_plate_and_no_pen_draws_them() -> None:
     spaces = opened.pages[0].Resources.ColorSpace
     assert [str(space[1]) for _, space in spaces.items()][-1] == "/All"
     with_layers = svg_layers(svg.render(page))
-    assert list(with_layers)[-1] == "%marks"
+    assert list(with_layers)[-1] == "%98 marks"
     drawing = opened_dxf(dxf.render(page))
-    assert "MARKS" in drawing.layers
+    assert "marks" in drawing.layers
 
 
 def test_boxes_and_pages_follow_the_margins() -> None:

@@ -101,8 +101,27 @@ def test_inks_as_separations() -> None:
     text = content(document)
     assert "/S0 cs 1 scn\n" in text
     assert "/S1 CS 1 SCN\n" in text
-    # The cloth is no plate.
-    assert re.search(r"/L0 BDC\n[0-9. ]+ rg\n", text)
+    assert not re.search(r" (rg|RG|k|K|g|G)\n", text)
+
+
+def test_no_plate_for_the_cloth_unless_it_is_asked_for() -> None:
+    def drawn(cloth: bool | None, *more: Layer) -> tuple[list[str], list[str], str]:
+        artwork = replace(sample(), layers=sample().layers + more)
+        document = opened(artwork, inks=PdfInks.SPOT, cloth=cloth)
+        names = [str(space[1]) for _, space in document.pages[0].Resources.ColorSpace.items()]
+        return [str(g.Name) for g in document.Root.OCProperties.OCGs], names, content(document)
+
+    inks = ["/wax", "/soga brown", "/Indigo/2"]
+    for cloth in (None, False):
+        assert drawn(cloth)[:2] == (["wax", "soga brown", "Indigo/2"], inks)
+    groups, names, text = drawn(True)
+    assert groups[0] == "cloth"
+    assert names == ["/cloth", *inks]
+    assert text.count("/S0 cs 1 scn\n") == 1
+    # Process inks are what any other colour would be printed with.
+    assert not re.search(r" (rg|RG|k|K|g|G)\n", text)
+    # An ink of that name keeps its plate to itself.
+    assert drawn(True, Layer(Ink("cloth", "#000000")))[1] == ["/cloth (ground)", *inks, "/cloth"]
 
 
 def test_a_plate_for_all_is_not_every_plate() -> None:

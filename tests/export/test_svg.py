@@ -11,8 +11,9 @@ import shapely
 from batik_vector.artwork import Artwork, Cell, Ink, Layer
 from batik_vector.export import svg
 from batik_vector.export.options import Curves, Profile, SvgOptions
+from batik_vector.geometry.outlines import MM, Outlines, of_polylines
 
-from .drawings import area_of, disc, empty, geometries, length_of, sample, stacked
+from .drawings import InPieces, area_of, disc, empty, geometries, length_of, line, sample, stacked
 from .readers import SVG, svg_layers, svg_path, svg_rings
 
 PROFILES = list(Profile)
@@ -93,7 +94,7 @@ def test_ids_are_letters_and_digits_and_unique() -> None:
 def test_compact_has_one_path_per_kind_of_mark() -> None:
     layers = svg_layers(written(sample(), profile=Profile.COMPACT))
     counts = {label: len(list(g.iter(f"{SVG}path"))) for label, g in layers.items()}
-    assert counts == {"%cloth": 1, "1 wax": 1, "2 soga brown": 1, "3 Indigo/2": 2}
+    assert counts == {"%99 cloth": 0, "1 wax": 1, "2 soga brown": 1, "3 Indigo/2": 2}
 
 
 def test_compact_breaks_paths_that_readers_refuse(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -111,10 +112,27 @@ def test_marks_laid_over_one_another_do_not_cut_each_other_out() -> None:
 
 
 def test_cloth_is_a_layer_that_plotters_skip_and_may_be_left_out() -> None:
-    cloth = svg_layers(written(sample()))["%cloth"]
+    cloth = svg_layers(written(sample()))["%99 cloth"]
     assert cloth.get("fill") == "#123456"
     assert abs(svg_rings(cloth, filled=True)[0].area) == 40 * 30
-    assert "%cloth" not in svg_layers(written(sample(), cloth=False))
+    assert "%99 cloth" not in svg_layers(written(sample(), cloth=False))
+
+
+def line_across() -> Outlines:
+    return of_polylines(geometries(line((0, 0), (1, 1))), MM)
+
+
+def test_numbers_of_layers_are_apart_however_many_there_are() -> None:
+    def labels(inks: int) -> list[str]:
+        layers = tuple(Layer(Ink(f"ink{i}", "#000000")) for i in range(inks))
+        page = InPieces(replace(empty(), layers=layers), guides=line_across())
+        cloth, others = svg.layer_labels(page)
+        return [cloth, *others]
+
+    assert labels(2) == ["%99 cloth", "1 ink0", "2 ink1", "%98 marks"]
+    for inks in (97, 98, 99, 100, 1200):
+        numbers = [re.search(r"\d+", label) for label in labels(inks)]
+        assert len({found.group() for found in numbers if found}) == inks + 2
 
 
 def test_rulers_show_mm() -> None:
@@ -123,9 +141,9 @@ def test_rulers_show_mm() -> None:
 
 @pytest.mark.parametrize("profile", PROFILES)
 def test_an_empty_artwork_is_a_page(profile: Profile) -> None:
-    assert list(svg_layers(written(empty(), profile=profile))) == ["%cloth"]
+    assert list(svg_layers(written(empty(), profile=profile))) == ["%99 cloth"]
     bare = replace(empty(), layers=(Layer(Ink("w", "#000000")),))
-    assert list(svg_layers(written(bare, profile=profile))) == ["%cloth", "1 w"]
+    assert list(svg_layers(written(bare, profile=profile))) == ["%99 cloth", "1 w"]
 
 
 def test_titles_and_names_are_escaped() -> None:

@@ -215,6 +215,11 @@ def test_a_layer_of_one_ink_lends_it_its_name() -> None:
         ('<rect width="100" height="100" fill="#1d2f5f"/>', "#1d2f5f"),
         ('<path d="M-5-5h110v110h-110z" fill="#1d2f5f"/>', "#1d2f5f"),
         ('<g id="Cloth"><rect width="99" height="99" fill="#1d2f5f"/></g>', "#1d2f5f"),
+        (
+            '<g id="g1" inkscape:label="%99 cloth"><polygon points="0 0 9 0 9 9" fill="#1d2f5f"/></g>',
+            "#1d2f5f",
+        ),
+        ('<g id="g1" inkscape:label="%cloth"><path d="M0 0 9 0 9 9Z" fill="#1d2f5f"/></g>', "#1d2f5f"),
         ('<rect width="100" height="99.9" fill="#1d2f5f"/>', "#ffffff"),
         ('<rect width="100" height="100" fill="none"/>', "#ffffff"),
         ("", "#ffffff"),

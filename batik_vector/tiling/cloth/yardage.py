@@ -228,7 +228,7 @@ def vertices_of(artwork: Artwork, spec: YardageSpec, frame: Frame | None = None)
 def _too_large(count: int, limit: int, rows: int) -> str:
     fits = rows / STEPS_PER_MM * limit / count
     return (
-        f"the cloth would have about {count:,} vertices (an SVG of some {count * 16 / 1e9:.1f} GB), past the "
+        f"the cloth would have about {count:,} vertices (some {count * 16 / 1e9:.1f} GB as SVG), past the "
         f"limit of {limit:,}: expected a length of {format_mm(int(fits))} mm at most, more tolerance, or a "
         "higher limit"
     )

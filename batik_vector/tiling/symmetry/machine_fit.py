@@ -13,7 +13,7 @@ from typing import Annotated
 from batik_vector.artwork import Cell
 from batik_vector.errors import Fault, RecipeError
 from batik_vector.fields import Between, Length, Says, check
-from batik_vector.units import STEPS_PER_MM, format_mm
+from batik_vector.units import STEPS_PER_MM, format_mm, to_steps
 from batik_vector.values import frozen
 
 STEPS_PER_INCH = 25_400
@@ -70,13 +70,15 @@ def repeats_to_fill(machine: float, repeat: float, units: int, limit: float, sid
                 )
             ]
         )
+    # What is told is what the tile would have: its sides lie on the grid.
+    told = per_cent(to_steps(machine / (best * units)) * units / STEPS_PER_MM / repeat)
     nearest = sorted(counts, key=lambda count: count != best)
     sizes = " or ".join(f"{format_mm(machine / (count * units))} mm" for count in nearest)
     raise RecipeError(
         [
             Fault(
                 f"{best} repeats of {format_mm(repeat)} mm fill {format_mm(machine)} mm when stretched by "
-                f"{per_cent(stretch)}, past the limit of {limit:g} %: expected a tile of {side} {sizes}, "
+                f"{told}, past the limit of {limit:g} %: expected a tile of {side} {sizes}, "
                 "or a higher limit",
                 key,
             )
