@@ -9,7 +9,7 @@ import pytest
 
 from batik_vector import certify, compile_cloth, compile_recipe, load_recipe
 from batik_vector.artwork import Artwork, violations
-from batik_vector.certificate.symmetry import found_group
+from batik_vector.certificate.symmetry.finder import found_group
 from batik_vector.compiling.compiler import inspect
 from batik_vector.export import FORMATS, render
 from batik_vector.export.options import PngOptions

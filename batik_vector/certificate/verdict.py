@@ -26,7 +26,7 @@ from batik_vector.certificate.report import Certificate, Kind, Limits, Measures,
 from batik_vector.certificate.seam import Seam, seams_of
 from batik_vector.certificate.shifts import agreeing_shift, all_events, shift_fault
 from batik_vector.certificate.slivers import sliver_fault, slivers
-from batik_vector.certificate.symmetry import PLAIN, STRETCH, found_group
+from batik_vector.certificate.symmetry.finder import PLAIN, STRETCH, found_group
 from batik_vector.certificate.tangents import Turns, border_turns, line_turns, turn_faults
 from batik_vector.fields import given
 from batik_vector.tiling.symmetry.groups import group

@@ -16,10 +16,10 @@ from fractions import Fraction
 import numpy as np
 
 from batik_vector.artwork import Cell, Layer
-from batik_vector.certificate.agreement import Fit, Matcher
-from batik_vector.certificate.candidates import Spectra, pixel_of
-from batik_vector.certificate.group_names import ORBIFOLDS, name_of
-from batik_vector.certificate.lattice import (
+from batik_vector.certificate.symmetry.agreement import Fit, Matcher
+from batik_vector.certificate.symmetry.candidates import Spectra, pixel_of
+from batik_vector.certificate.symmetry.group_names import ORBIFOLDS, name_of
+from batik_vector.certificate.symmetry.lattice import (
     IDENTITY,
     Matrix,
     Turn,
@@ -30,9 +30,9 @@ from batik_vector.certificate.lattice import (
     refined,
     turns,
 )
-from batik_vector.certificate.operations import FoundGroup, Miss, Pair, Vector, described, pair
-from batik_vector.certificate.outline import Outline, outline
-from batik_vector.certificate.stripes import stripes
+from batik_vector.certificate.symmetry.operations import FoundGroup, Miss, Pair, Vector, described, pair
+from batik_vector.certificate.symmetry.outline import Outline, outline
+from batik_vector.certificate.symmetry.stripes import stripes
 from batik_vector.units import GRID_MM, STEPS_PER_MM
 
 __all__ = ["FoundGroup", "found_group"]

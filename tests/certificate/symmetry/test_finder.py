@@ -10,9 +10,9 @@ import pytest
 import shapely
 
 from batik_vector.artwork import Cell, DropAxis, Geometries, Ink, Layer
-from batik_vector.certificate.lattice import IDENTITY, closed
-from batik_vector.certificate.operations import FoundGroup, OperationKind
-from batik_vector.certificate.symmetry import found_group
+from batik_vector.certificate.symmetry.finder import found_group
+from batik_vector.certificate.symmetry.lattice import IDENTITY, closed
+from batik_vector.certificate.symmetry.operations import FoundGroup, OperationKind
 from tests.certificate.positions import (
     BLUE,
     HEXAGONAL,

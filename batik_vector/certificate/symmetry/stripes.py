@@ -9,9 +9,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from batik_vector.certificate.lattice import Matrix, reduced
-from batik_vector.certificate.operations import Pair, pair
-from batik_vector.certificate.outline import Edges, Indices, Outline, Points, together
+from batik_vector.certificate.symmetry.lattice import Matrix, reduced
+from batik_vector.certificate.symmetry.operations import Pair, pair
+from batik_vector.certificate.symmetry.outline import Edges, Indices, Outline, Points, together
 from batik_vector.values import frozen
 
 FARTHEST = 24

@@ -10,9 +10,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from batik_vector.certificate.lattice import Matrix, Whole
-from batik_vector.certificate.nearest_edges import spread
-from batik_vector.certificate.outline import Outline, Points
+from batik_vector.certificate.symmetry.lattice import Matrix, Whole
+from batik_vector.certificate.symmetry.nearest_edges import spread
+from batik_vector.certificate.symmetry.outline import Outline, Points
 
 SIDE = 360
 """Grid points along each side: halves, thirds, … tenths of a cell fall on points."""

@@ -7,8 +7,8 @@ import enum
 import numpy as np
 from numpy.typing import NDArray
 
-from batik_vector.certificate.group_names import axis_of
-from batik_vector.certificate.lattice import Matrix, Whole, determinant, order_of
+from batik_vector.certificate.symmetry.group_names import axis_of
+from batik_vector.certificate.symmetry.lattice import Matrix, Whole, determinant, order_of
 from batik_vector.values import frozen
 
 Vector = NDArray[np.float64]

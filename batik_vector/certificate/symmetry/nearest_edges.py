@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from batik_vector.certificate.outline import Edges, Indices, Points
+from batik_vector.certificate.symmetry.outline import Edges, Indices, Points
 from batik_vector.values import frozen
 
 Matrix = NDArray[np.float64]

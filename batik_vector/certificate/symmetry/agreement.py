@@ -17,9 +17,9 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from batik_vector.certificate.lattice import Matrix
-from batik_vector.certificate.nearest_edges import Nearest, spread
-from batik_vector.certificate.outline import Edges, Indices, Points
+from batik_vector.certificate.symmetry.lattice import Matrix
+from batik_vector.certificate.symmetry.nearest_edges import Nearest, spread
+from batik_vector.certificate.symmetry.outline import Edges, Indices, Points
 from batik_vector.values import frozen
 
 FEW = 600

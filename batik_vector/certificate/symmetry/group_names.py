@@ -13,7 +13,7 @@ from math import gcd
 import numpy as np
 from numpy.typing import NDArray
 
-from batik_vector.certificate.lattice import Matrix, Whole, determinant, order_of
+from batik_vector.certificate.symmetry.lattice import Matrix, Whole, determinant, order_of
 
 ORBIFOLDS = {
     "p1": "o",
