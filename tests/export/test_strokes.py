@@ -86,10 +86,10 @@ def test_curves_do_not_leave_the_tile() -> None:
 
 
 def test_pieces_of_a_page_know_of_one_another(monkeypatch: pytest.MonkeyPatch, tile: Artwork) -> None:
-    from batik_vector import artwork
+    from batik_vector.artwork import page
 
     whole = curves(tile)
-    monkeypatch.setattr(artwork, "PIECE", 200)
+    monkeypatch.setattr(page, "PIECE", 200)
     assert sum(1 for _ in tile.areas(0)) > 1
     assert np.abs(curves(tile) - whole).max() <= 1
 
