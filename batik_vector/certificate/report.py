@@ -76,7 +76,7 @@ class Limits:
     @property
     def hair(self) -> float:
         """How far (mm) ink may stand from an edge and still be taken to end on it."""
-        return self.position / 8
+        return self.position / 5
 
     def __post_init__(self) -> None:
         check(self)

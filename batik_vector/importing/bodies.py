@@ -105,6 +105,11 @@ def _ends(marks: Marks, rows: Indices, sides: Floats) -> _Ends:
     line, last, place, on = line[some], last[some], place[some], on[some]
     way = place - inner[some]
     way /= np.maximum(np.hypot(way[:, 0], way[:, 1]), 1e-12)[:, None]
+    # A line that comes from outside and ends on the edge is none of the page's.
+    outward = ((place <= ON_EDGE_MM) & (way < 0)) | ((place >= sides - ON_EDGE_MM) & (way > 0))
+    leaves = on & outward
+    some = leaves[:, 0] | leaves[:, 1]
+    line, last, place, on, way = line[some], last[some], place[some], on[some], way[some]
     # What of the way leads along the edge; a line that comes in square leaves no nick.
     aslant = np.where(on[:, 0], way[:, 1], way[:, 0])
     shape = marks.line_shape[line]

@@ -17,12 +17,13 @@ from collections import Counter
 from itertools import pairwise
 
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 
-from batik_vector.certificate.drawing import SNAP, Drawing
+from batik_vector.certificate.drawing import Drawing
 from batik_vector.certificate.picture.bodies import Bodies
-from batik_vector.certificate.picture.rim import ROUNDING, Rim, Shown, Spans, shown
+from batik_vector.certificate.picture.corners import Corners, borders
+from batik_vector.certificate.picture.ends import Ends
+from batik_vector.certificate.picture.rim import Rim, Shown, shown
 from batik_vector.certificate.report import Limits
 from batik_vector.certificate.seam import Seam
 from batik_vector.values import frozen
@@ -32,30 +33,6 @@ Indices = NDArray[np.intp]
 
 ALIKE, ALIKE_RAMP = 2 / 255, 6 / 255
 """By how much colours may differ and be the same; where a colour runs, half a step of it shows."""
-
-SQUARE = np.sin(np.radians(0.5))
-"""How far a border may lean and still leave the seam squarely."""
-
-STRAIGHT_MM = 0.2
-"""How long (mm) the piece of border must be that leaves the seam squarely, or the drawing's own corner's."""
-
-SHORT_MM = 0.05
-"""How long (mm) a piece of border along the seam must be, inside the page, for its corners to count."""
-
-SMOOTH = np.sin(np.radians(3.0))
-"""How far the borders of both sides may lean apart and still go on in one another."""
-
-FLAT = np.cos(np.radians(15.0))
-"""How far a border leans that leaves along the seam, as at a rounded corner."""
-
-CORNER = 1.0
-"""Degrees by which corners may differ and be the same."""
-
-PARALLEL = np.tan(np.radians(0.2))
-
-
-DISPLACED = 0.05
-"""Share of a seam within which borders that do not meet are one, out of register: no step was drawn."""
 
 
 class Cause(enum.StrEnum):
@@ -135,9 +112,8 @@ class _Comparison:
     ) -> None:
         self.bodies, self.seam, self.near, self.far = bodies, seam, near, far
         self.limit = limits.position * seam.frame.per_mm
-        self.displaced = limits.reach * seam.frame.per_mm
-        self.tile = tile
-        self._corners: Floats | None = None
+        self.ends = Ends(bodies, seam, limits)
+        self.corners = Corners(near, far, seam, tile, limits)
 
     def result(self) -> Joints:
         """Return the joints."""
@@ -158,7 +134,9 @@ class _Comparison:
                 mismatch = max(mismatch, size)
             else:
                 found += self._parts(first, last)
-        found += self._nicks()
+        for nick in self.ends.nicks():
+            tops = (-1, nick.body) if nick.far else (nick.body, -1)
+            found.append(Joint(nick.low, nick.high, *tops, Cause.NICK, nick.body))
         reach = self.limit + float(self.bodies.breadth.max(initial=0.0)) / 2 * self.seam.frame.per_mm
         return Joints(self.seam, tuple(found), mismatch / self.seam.frame.per_mm, reach)
 
@@ -187,7 +165,7 @@ class _Comparison:
         ends = [
             [
                 np.concatenate(
-                    [_borders(each, place, self.seam.length, 0.0)[0] for each in (side.spans, side.inner)]
+                    [borders(each, place, self.seam.length, 0.0)[0] for each in (side.spans, side.inner)]
                 )
                 for side in (self.near, self.far)
             ]
@@ -242,14 +220,15 @@ class _Comparison:
             return (Cause.RAMP, running[0]) if running else (Cause.ORDER, seen[0][0][0] if seen[0] else -1)
         hidden = [{int(paint[body]) for body, cut in stack if cut} for stack in stacks]
         cut = [
-            [body for body, goes_on in odd[i] if goes_on and not self._ends(body, low, high)] for i in (0, 1)
+            [body for body, goes_on in odd[i] if goes_on and not self.ends.reaches(body, low, high)]
+            for i in (0, 1)
         ]
         lone = [[body for body in cut[i] if int(paint[body]) not in hidden[1 - i]] for i in (0, 1)]
         if not any(lone):
             if cut[0] and cut[1]:
                 return Cause.ORDER, cut[0][0]
             body = (odd[0] or odd[1])[0][0]
-            meant = self._designed(low, high) and not self._displaced(low, high)
+            meant = self.corners.drawn(low, high) and not self.corners.displaced(low, high)
             return (Cause.MEANT if meant else Cause.CUT), body
         body = (lone[0] or lone[1])[0]
         mine, others = paints[paint[body]], (paints[i] for i in kinds[1 if lone[0] else 0])
@@ -257,122 +236,6 @@ class _Comparison:
             return Cause.TINT, body
         return (Cause.RAMP if mine.runs and lone[0] and lone[1] else Cause.CUT), body
 
-    def _nicks(self) -> list[Joint]:
-        """Return the nicks that show where lines come in aslant and end flat, on the edge."""
-        bodies, seam, per_mm = self.bodies, self.seam, self.seam.frame.per_mm
-        found: dict[int, Joint] = {}
-        for row in np.flatnonzero(np.abs(bodies.nicks) > self.limit / per_mm).tolist():
-            mine = np.flatnonzero(bodies.owner == bodies.end_owner[row])
-            x, y = (bodies.ends[row] * per_mm).tolist()
-            across, along = (x, y) if seam.axis == 0 else (y, x)
-            far = abs(across - seam.far) < abs(across - seam.near)
-            edge = seam.far if far else seam.near
-            corner = min(abs(x), abs(x - seam.frame.cell.columns)) <= ON_EDGE * per_mm
-            # In a corner of the page a line ends on two edges; the nick is told once.
-            if not len(mine) or abs(across - edge) > ON_EDGE * per_mm or (seam.axis == 1 and corner):
-                continue
-            reach = float(np.copysign(bodies.breadth[mine[0]] / 2 * per_mm, bodies.nicks[row]))
-            inward = (-1 if far else 1) * 0.05 * abs(reach)
-            beside = (edge + inward, along + reach / 2)
-            if self._bare(beside if seam.axis == 0 else beside[::-1], mine):
-                place = (along - (seam.slip if far else 0)) % seam.length
-                low, high = sorted((place, place + reach))
-                tops = (-1, int(mine[0])) if far else (int(mine[0]), -1)
-                found.setdefault(round(place), Joint(low, high, *tops, Cause.NICK, int(mine[0])))
-        return list(found.values())
-
-    def _bare(self, place: tuple[float, float], mine: Indices) -> bool:
-        """Whether no body of a line's paint, nor anything solid above the line, lies at a place (steps)."""
-        bodies, frame = self.bodies, self.seam.frame
-        point = shapely.Point(np.array(frame.on_page(*place)) / frame.per_mm)
-        own_page = place == frame.on_page(*place)
-        there = np.flatnonzero(shapely.intersects(bodies.shapes, point))
-        others = there[~np.isin(there, mine)] if own_page else there
-        solid = np.array([bodies.paints[number].solid for number in bodies.paint[others]], bool)
-        alike = bodies.paint[others] == bodies.paint[mine[0]]
-        return not (alike | (solid & (others > mine.max()))).any()
-
-    def _end_places(self, body: int) -> Floats:
-        """Return where on this seam, in steps, the line ends whose body this is."""
-        owner = self.bodies.owner[body]
-        if owner < 0:
-            return np.empty(0)
-        seam, per_mm = self.seam, self.seam.frame.per_mm
-        ends = self.bodies.ends[self.bodies.end_owner == owner] * per_mm
-        across, along = ends[:, seam.axis], ends[:, 1 - seam.axis]
-        on_near, on_far = (np.abs(across - edge) <= SNAP * per_mm for edge in (seam.near, seam.far))
-        return np.asarray(np.concatenate([along[on_near], along[on_far] - seam.slip]) % seam.length)
-
-    def _ends(self, body: int, low: float, high: float) -> bool:
-        """Whether a stroke reaches over the edge there by no more than the cap of an end that lies on it."""
-        half = self.bodies.breadth[body] / 2 * self.seam.frame.per_mm * 1.01 + self.limit
-        places = self._end_places(body)
-        return bool(self._near(places, low, high, half).any())
-
-    def _near(self, places: Floats, low: float, high: float, reach: float) -> NDArray[np.bool_]:
-        """Tell within reach of which places on the circle a stretch wholly lies."""
-        length = self.seam.length
-        turned = places + np.rint(((low + high) / 2 - places) / length) * length
-        return np.asarray((low >= turned - reach) & (high <= turned + reach))
-
-    def _designed(self, low: float, high: float) -> bool:
-        """Whether both ends of a stretch look like the drawing's own corners."""
-        length = float(self.seam.length)
-        if high - low >= length - ROUNDING:
-            return True
-        return all(self._own_corner(place) for place in (low, high))
-
-    def _displaced(self, low: float, high: float) -> bool:
-        """Whether a border of either edge ends the stretch, and they are so near that they ought to meet."""
-        if high - low > min(self.displaced, DISPLACED * self.seam.length):
-            return False
-        near, far = (
-            [len(_borders(side.spans, place, self.seam.length, self.limit)[0]) for place in (low, high)]
-            for side in (self.near, self.far)
-        )
-        return near in ([1, 0], [0, 1]) and far == near[::-1]
-
-    def _own_corner(self, place: float) -> bool:
-        """Whether a stretch ends at a place as no page would end it that cuts a mark off."""
-        borders = [
-            _borders(side.spans, place, self.seam.length, self.limit) for side in (self.near, self.far)
-        ]
-        (here, one), (there, other) = borders
-        lean, run = (np.concatenate(parts) for parts in zip(*borders, strict=True))
-        straight = STRAIGHT_MM * self.seam.frame.per_mm
-        # Where more than two borders meet, or one leaves along the edge, the corner was drawn.
-        if len(lean) not in (1, 2) or np.abs(lean).max() >= FLAT:
-            return True
-        if len(lean) == 2 and not (len(here) and len(there)) and np.ptp(lean) > SMOOTH:
-            return True
-        if len(here) and len(there):
-            # A curve that goes straight on, in another colour, is one mark in two halves.
-            return not (abs(here[0] + there[0]) <= SMOOTH and min(one[0], other[0]) < straight)
-        if ((run >= straight) & (np.abs(lean) <= SQUARE)).any():
-            return True
-        own = self._inner_corners()
-        turns = np.degrees(np.arccos(np.clip(np.concatenate([lean, -lean]), -1, 1)))
-        return bool(len(own) and (np.abs(turns[:, None] - own[None, :]).min(axis=1) <= CORNER).any())
-
-    def _inner_corners(self) -> Floats:
-        """Return by how many degrees borders turn, inside the page, at the ends of pieces along this seam."""
-        if self._corners is None:
-            seam = self.seam
-            found = []
-            for ink in self.tile:
-                step = (ink.rings.end - ink.rings.begin).astype(np.float64)
-                run, rise = np.abs(step[:, 1 - seam.axis]), np.abs(step[:, seam.axis])
-                at = ink.rings.begin[:, seam.axis]
-                mine = (rise <= PARALLEL * run) & (run >= SHORT_MM * seam.frame.per_mm)
-                mine &= (at > seam.near + self.limit) & (at < seam.far - self.limit)
-                found += [ink.rings.turn_begin[mine], ink.rings.turn_end[mine]]
-            turns = np.degrees(np.concatenate(found)) if found else np.empty(0)
-            self._corners = np.unique(np.round(turns[np.isfinite(turns) & (turns > 5)], 2))
-        return self._corners
-
-
-ON_EDGE = 0.02
-"""How near (mm) to an edge a line ends that ends on it."""
 
 MOST_ASLANT = 20.0
 """How many times the limit a difference is looked at that borders may make which come in aslant."""
@@ -380,10 +243,6 @@ MOST_ASLANT = 20.0
 
 def _slope(lean: float) -> float:
     return lean / math.sqrt(max(1 - lean * lean, 1e-12))
-
-
-def _turned(apart: Floats, length: int) -> Floats:
-    return np.asarray((apart + length / 2) % length - length / 2)
 
 
 def _visible(stack: list[tuple[int, bool]], bodies: Bodies) -> list[tuple[int, bool]]:
@@ -408,13 +267,6 @@ def _more(
         if left[kind] < 0:
             odd.append((body, goes_on))
     return sorted(odd, reverse=True)
-
-
-def _borders(spans: Spans, place: float, length: int, reach: float) -> tuple[Floats, Floats]:
-    """Return lean and run of the borders that leave an edge at a place."""
-    ends = np.column_stack([spans.low, spans.high])
-    on = (np.abs(_turned(ends - place, length)) <= reach + ROUNDING) & (spans.run > 0)
-    return spans.lean[on], spans.run[on]
 
 
 def _runs(odd: NDArray[np.bool_]) -> list[tuple[int, int]]:
