@@ -29,6 +29,9 @@ from batik_vector.values import frozen
 NOISE_MM = 0.002
 """How far rounding to the 1 µm grid, and cutting on it, may move one end of an edge against the other."""
 
+ROUNDED = 0.16
+"""Share of how far crossings may stand apart by which the file's own rounding may move one end of an edge."""
+
 SUDDEN = 1.5
 """How many times the turns beside it a turn of a sampled curve may be: samplers place vertices unevenly."""
 
@@ -101,7 +104,7 @@ def _turns(near: Germs, far: Germs, seam: Seam, within: tuple[float, float], dir
     one, other = near.only(row), far.only(column)
     turn = _angle(-other.away, one.away)
     bend = 1 / one.length + 1 / other.length
-    noise = NOISE_MM * seam.frame.per_mm * bend
+    noise = max(NOISE_MM, ROUNDED * within[1]) * seam.frame.per_mm * bend
     sampled = SUDDEN * np.minimum(4 * tolerance * bend, np.maximum(one.next_turn, other.next_turn))
     mirrored = other.away * (np.array([-1, 1]) if seam.axis == 0 else np.array([1, -1]))
     excess = np.minimum(turn - noise - sampled, _angle(mirrored, one.away) - noise)

@@ -70,6 +70,9 @@ FOREIGN = {"position": 0.04, "thin": 0.05}
 """Limits for drawings that no recipe made, where they differ. Files that keep one decimal of a pixel are off
 by 0.026 mm at a seam, which does not show on cloth. A hair of ink or of bare cloth does."""
 
+SAMPLED_MM = 0.02
+"""How far (mm) the polylines of a stranger may stand from true curves: as far as ours do, unless asked."""
+
 MEASURING = 0.002
 """By how much more a tile may be found stretched than its recipe says."""
 
@@ -227,9 +230,11 @@ def _foreign(source: str, reading: Reading, wishes: Wishes) -> Certificate:
     """Measure a drawing that no recipe of ours made."""
     asked = Asked(wishes.group) if wishes.group else None
     open_ = () if wishes.lenient else reading.unmeasured
+    # Of polylines nobody knows how closely they follow the curves that they were made from.
+    tolerance = reading.artwork.tolerance if reading.curved else max(reading.artwork.tolerance, SAMPLED_MM)
     try:
         return certify(
-            reading.artwork,
+            replace(reading.artwork, tolerance=tolerance),
             asked=asked,
             limits=wishes.limits_for(foreign=True),
             bodies=reading.bodies,

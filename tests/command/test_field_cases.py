@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import re
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +14,7 @@ from batik_vector.command.cli import cli
 from tests.calling import runner
 
 CASES = Path(__file__).with_name("cases")
+SAMPLES = Path(__file__).resolve().parents[2] / "samples"
 
 PASSED = {
     "c01-relative-closed": "",
@@ -90,6 +93,40 @@ def test_gaps_and_lines_between_inks_are_told_on_request() -> None:
     assert code == 1
     assert "40 mm of a line are drawn in ink #cc0000 0.3 mm too" in told
     assert told.count("are drawn twice") == 2
+
+
+NUMBERS = re.compile(r"-?[0-9.]+")
+
+
+def absolute(match: re.Match[str]) -> str:
+    """Return path data rounded to two decimals, every line with its letter."""
+    return NUMBERS.sub(lambda number: f"{float(number[0]):.2f}", match[0])
+
+
+SAVED: dict[str, Callable[[str], str]] = {
+    "as it is": lambda text: text,
+    "by Inkscape": lambda text: text.replace("<svg ", '<svg inkscape:version="1.2.2" ').replace(
+        "<path d=", '<path style="stroke-width:1" d='
+    ),
+    "with two decimals": lambda text: re.sub(r' d="[^"]*"', absolute, text),
+}
+
+
+@pytest.mark.parametrize(
+    "sample", ["kawung", "trellis", "toss-leaves", "chrysanthemum-line", "miao-drum", "group-p3"]
+)
+@pytest.mark.parametrize("saved", SAVED)
+def test_our_own_drawing_keeps_its_verdict_where_its_recipe_is_lost(
+    sample: str, saved: str, tmp_path: Path
+) -> None:
+    recipe = SAMPLES / f"{sample}.toml"
+    assert runner().invoke(cli, ["compile", str(recipe), "-o", str(tmp_path), "-f", "svg"]).exit_code == 0
+    text = (tmp_path / f"{sample}.svg").read_text("utf-8")
+    text = re.sub("<metadata>.*</metadata>", "", text, flags=re.DOTALL)
+    (tmp_path / "bare.svg").write_text(SAVED[saved](text), "utf-8")
+    for source in (recipe, tmp_path / "bare.svg"):
+        result = runner().invoke(cli, ["check", str(source)])
+        assert result.exit_code == 0, result.stderr
 
 
 def test_many_files_end_in_a_table() -> None:
