@@ -77,7 +77,7 @@ def test_every_broken_tile_has_its_line() -> None:
 @pytest.mark.parametrize("name", BROKEN)
 def test_a_broken_tile_fails_where_it_is_broken(name: str) -> None:
     kind, ink, (x, y), reach = BROKEN[name]
-    # What is drawn twice shows nowhere, and so small a turn comes of rounding in most files: who asks is told.
+    # What is drawn twice shows nowhere, and so small a turn comes of rounding in most files.
     asked = {"double": ("--double", "0.005"), "tangent": ("--position", "0.001")}.get(kind, ())
     facts = checked(TILES / f"{name}.svg", "--group", "p4", *asked, code=1)
     mine = [each for each in facts["certificate"]["faults"] if (each["kind"], each["ink"]) == (kind, ink)]

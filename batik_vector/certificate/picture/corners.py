@@ -16,7 +16,7 @@ from batik_vector.certificate.seam import Seam
 
 Floats = NDArray[np.float64]
 
-SQUARE = np.sin(np.radians(0.5))
+SQUARE = np.sin(np.radians(1.0))
 """How far a border may lean and still leave the seam squarely."""
 
 STRAIGHT_MM = 0.2

@@ -180,15 +180,21 @@ class _Comparison:
                     closing = _slope(a) - _slope(b)
                     if closing > 0:
                         thick = min(thick, (high - low) / closing)
-                    elif closing < 0 and not self._goes_on((low + high) / 2):
+                    elif closing < 0 and not self._goes_on(low, high):
                         thick = min(thick, (high - low) / (-2 * closing))
         return thick
 
-    def _goes_on(self, place: float) -> bool:
-        """Whether any body goes on beyond the page there."""
-        return any(
-            ((side.beyond.low <= place) & (place <= side.beyond.high)).any() for side in (self.near, self.far)
-        )
+    def _goes_on(self, low: float, high: float) -> bool:
+        """Whether a body that ends where a difference does goes on beyond the page there."""
+        place, reach = (low + high) / 2, self.limit
+        for side in (self.near, self.far):
+            mine = side.spans.body[
+                (np.abs(side.spans.low - low) <= reach) | (np.abs(side.spans.high - high) <= reach)
+            ]
+            there = (side.beyond.low <= place) & (place <= side.beyond.high)
+            if np.isin(side.beyond.body[there], mine).any():
+                return True
+        return False
 
     def _look(self, side: Shown, row: int) -> tuple[object, ...]:
         body = int(side.top[row])
