@@ -120,7 +120,9 @@ class Matcher:
     def fit(self, matrix: Matrix, shift: Points, limit: float) -> Fit:
         """Measure whether an operation holds within ``limit`` mm: by a few points first, then by all."""
         missed = np.flatnonzero(self._distances(self.few, matrix, shift) > limit)
-        missed = missed[~self._on_hairs(self.few[missed])]
+        # More than a fair share of hairs excuses nothing, and need not be looked for.
+        if len(missed) <= FINE * len(self.few.kind):
+            missed = missed[~self._on_hairs(self.few[missed])]
         share = 1 - len(missed) / len(self.few.kind)
         if len(missed) or (self._distances(self.all[self.telling], matrix, shift) > limit).any():
             return Fit(False, share)

@@ -90,7 +90,8 @@ class Nearest:
         order = np.argsort(key, kind="stable")
         self.entries = row[order]
         kinds = int(pieces.kind.max()) + 1 if len(pieces) else 0
-        self.starts = np.searchsorted(key[order], np.arange(kinds * int(self.bins.prod()) + 1))
+        counts = np.bincount(key, minlength=kinds * int(self.bins.prod()))
+        self.starts = np.concatenate([[0], np.cumsum(counts)])
 
     def feet(self, xy: Points, kind: Indices, heading: Points) -> Feet:
         """Return the nearest edge of the same kind to each point.
