@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from batik_vector.certificate.drawing import Borders, InkDrawing
-from batik_vector.certificate.report import Kind, Limits, Measures, SeamFault
-from batik_vector.certificate.seam import Seam, nearest_distance, traces
+from batik_vector.certificate.report import EdgeStretch, Kind, Limits, Measures, SeamFault
+from batik_vector.certificate.seam import EDGE_NAMES, Seam, nearest_distance, traces
 from batik_vector.certificate.shifts import Events
 from batik_vector.tiling.torus.seams import Intervals, joined, symmetric_difference
 from batik_vector.units import format_mm
@@ -53,6 +53,22 @@ class Crossings:
         both = np.intersect1d(2 * near.along + near.sort, 2 * far.along + far.sort)
         return np.unique(both // 2)
 
+    def along(self, limit: float) -> list[EdgeStretch]:
+        """Return what of either edge alone is covered on purpose, longer than a limit (mm)."""
+        seam, per_mm = self.seam, self.seam.frame.per_mm
+        cuts = np.unique(np.concatenate([self.here.ravel(), self.there.ravel(), self.breaks.ravel()]))
+        middle = (cuts[1:] + cuts[:-1]) / 2
+        near, far, broken = (_within(middle, each) for each in (self.here, self.there, self.breaks))
+        found = []
+        for is_far, only in ((False, near & ~far & ~broken), (True, far & ~near & ~broken)):
+            stretches = joined(np.column_stack([cuts[:-1][only], cuts[1:][only]]))
+            for low, high in stretches.tolist():
+                if high - low > limit * per_mm:
+                    begin = seam.place(low, is_far)[1 - seam.axis]
+                    edge = EDGE_NAMES[seam.axis][is_far]
+                    found.append(EdgeStretch(edge, self.ink.ink.name, begin, begin + (high - low) / per_mm))
+        return found
+
     @property
     def measures(self) -> Measures:
         """Counts and the worst displacement."""
@@ -66,6 +82,12 @@ class Crossings:
         """Return the crossings of near and far edge, sorted by ink and by whether it begins or ends there."""
         near, far = (_ends(covered, self.seam.length) for covered in (self.here, self.there))
         return Events(near.along, near.sort + 3 * number), Events(far.along, far.sort + 3 * number)
+
+
+def _within(places: NDArray[np.float64], intervals: Intervals) -> NDArray[np.bool_]:
+    """Tell which places lie in one of disjoint, ascending intervals."""
+    row = np.searchsorted(intervals[:, 0], places, side="right") - 1
+    return np.asarray((row >= 0) & (places < np.append(intervals[:, 1], 0)[row]))
 
 
 def _ends(covered: Intervals, length: int) -> Events:

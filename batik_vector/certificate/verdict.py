@@ -18,11 +18,19 @@ from batik_vector.certificate.hints import hints
 from batik_vector.certificate.identity import allowed, bleed_difference, rolled_difference
 from batik_vector.certificate.line_ends import LineEnds, end_faults, line_ends
 from batik_vector.certificate.picture.bodies import Bodies
-from batik_vector.certificate.picture.faults import declared, joint_fault, stretches
+from batik_vector.certificate.picture.faults import joint_fault, stretches
 from batik_vector.certificate.picture.joints import Joints, joints_of
 from batik_vector.certificate.picture.rim import Rim
 from batik_vector.certificate.recut import elsewhere
-from batik_vector.certificate.report import Certificate, Kind, Limits, Measures, SeamFault, together
+from batik_vector.certificate.report import (
+    Certificate,
+    EdgeStretch,
+    Kind,
+    Limits,
+    Measures,
+    SeamFault,
+    together,
+)
 from batik_vector.certificate.seam import Seam, seams_of
 from batik_vector.certificate.shifts import agreeing_shift, all_events, shift_fault
 from batik_vector.certificate.slivers import sliver_fault, slivers
@@ -42,6 +50,7 @@ class _Ledger:
     limits: Limits
     noted: dict[str, list[Measures]]
     faults: list[SeamFault] = field(default_factory=list)
+    along: list[EdgeStretch] = field(default_factory=list)
 
     def note(self, ink: InkDrawing, measures: Measures) -> None:
         self.noted[ink.ink.name].append(measures)
@@ -114,7 +123,7 @@ def certify(
         asked=wanted.name if wanted else None,
         faults=tuple(fault for fault in ledger.faults if fault.kind not in remarked),
         remarks=tuple(fault for fault in ledger.faults if fault.kind in remarked),
-        along=stretches(joints, bodies) if bodies else declared(artwork.borders, artwork.cell),
+        along=stretches(joints, bodies) if bodies else tuple(ledger.along),
         hints=tuple(hints(ledger.faults, tile, bodies, joints, limits)),
         unmeasured=tuple(unmeasured),
     )
@@ -138,6 +147,7 @@ def _check_crossings(tile: Drawing, artwork: Artwork, ledger: _Ledger, bodies: B
         borders = [area_crossings(ink, seam, artwork.borders, limits, finer) for ink in tile]
         lines = [each[number] for each in ends]
         for found in borders:
+            ledger.along += found.along(limits.position)
             _note_turns(
                 border_turns(found.ink, seam, found.paired, artwork.tolerance, limits),
                 found.ink,

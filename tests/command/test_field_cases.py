@@ -78,6 +78,29 @@ def test_borders_along_the_edges_have_their_true_lengths() -> None:
     assert {each["to_mm"] - each["from_mm"] for each in along} == {40.0}
 
 
+def test_a_recipe_tells_its_borders_as_its_drawing_does(tmp_path: Path) -> None:
+    recipe = CASES / "r02-stripe-recipe.toml"
+    assert runner().invoke(cli, ["compile", str(recipe), "-o", str(tmp_path)]).exit_code == 0
+    (drawing,) = tmp_path.glob("*.svg")
+    bare = re.sub("<metadata>.*</metadata>", "", drawing.read_text("utf-8"), flags=re.DOTALL)
+    drawing.write_text(bare, "utf-8")
+    told = []
+    for source in (recipe, drawing):
+        report = json.loads(runner().invoke(cli, ["check", str(source), "--json"]).stdout)
+        along = report["recipes"][0]["certificate"]["ends_along_edges"]
+        told.append(sorted((each["edge"], each["from_mm"], each["to_mm"]) for each in along))
+    assert told[0] == told[1]
+    assert {high - low for _, low, high in told[0]} == {40.0}
+
+
+def test_a_polygon_has_as_many_vertices_as_corners(tmp_path: Path) -> None:
+    recipe = CASES / "r07-polygon-vertices.toml"
+    for sides in (3, 4, 5):
+        curve = f'motif.square.elements=[{{curve={{kind="polygon",sides={sides}}}}}]'
+        call = ["compile", str(recipe), "-o", str(tmp_path), "--json", "--set", curve]
+        assert json.loads(runner().invoke(cli, call).stdout)["recipes"][0]["vertices"] == sides + 1
+
+
 def test_a_case_fails_where_it_is_wrong() -> None:
     ((x, y),) = (each["where_mm"] for each in facts_of("c10-order-at-seam")["certificate"]["faults"])
     assert x in (0, 100)

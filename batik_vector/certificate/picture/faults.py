@@ -6,7 +6,6 @@ from collections.abc import Iterable, Iterator
 
 import shapely
 
-from batik_vector.artwork import Cell
 from batik_vector.certificate.picture.bodies import Bodies
 from batik_vector.certificate.picture.joints import Cause, Joint, Joints
 from batik_vector.certificate.report import EdgeStretch, Kind, SeamFault
@@ -117,13 +116,3 @@ def _merged(places: list[tuple[float, float]]) -> Iterator[tuple[float, float]]:
         low, high = a, b
     if low >= 0:
         yield low, high
-
-
-def declared(borders: Iterable[tuple[str, int, int, int]], cell: Cell) -> tuple[EdgeStretch, ...]:
-    """Return the borders that an artwork says run along its seams, told of at both edges."""
-    found = [
-        EdgeStretch(" and ".join(EDGE_NAMES[axis]), ink, low / 1000, high / 1000)
-        for ink, axis, low, high in sorted(borders)
-        if low < high
-    ]
-    return tuple(found)
