@@ -21,6 +21,9 @@ Numbers = NDArray[np.float64]
 BINS = 250_000
 """Bins on the torus at most, for each kind of edges."""
 
+ALL_BINS = 16 * BINS
+"""Bins of all kinds of edges together at most: a tracing in hundreds of inks has few edges of each."""
+
 CHUNK = 100_000
 """Pairs of point and edge measured in one go, which keeps them in the processor's cache or near it."""
 
@@ -64,7 +67,8 @@ class Nearest:
         self.reach = min(reach, float(0.2 / slope.max()))
         area = abs(float(np.linalg.det(basis)))
         length = float(np.hypot(*(edges.end - edges.begin).T).mean())
-        pitch = max(2 * self.reach, length, float(np.sqrt(area / BINS)))
+        bins = min(BINS, ALL_BINS // (int(edges.kind.max(initial=0)) + 1))
+        pitch = max(2 * self.reach, length, float(np.sqrt(area / bins)))
         self.bins = np.maximum((1 / (slope * pitch)).astype(np.intp), 1)
         pieces = _split(edges, min(2 * pitch, float(0.2 / slope.max())))
         self._measure(pieces, short)
