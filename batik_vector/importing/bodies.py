@@ -16,7 +16,7 @@ from batik_vector.artwork import Cell, Geometries
 from batik_vector.importing.inks import Marks
 from batik_vector.importing.painting import Bodies, Paint
 from batik_vector.importing.pens import Pen, bodies
-from batik_vector.importing.walk import Shape
+from batik_vector.importing.scene import Shape
 from batik_vector.values import frozen
 
 REACH = 0.025

@@ -21,7 +21,7 @@ from batik_vector.importing.inks import Marks
 from batik_vector.importing.outlines import Outline, joined
 from batik_vector.importing.pens import Pen, bodies
 from batik_vector.importing.polylines import Lines
-from batik_vector.importing.walk import Shape
+from batik_vector.importing.scene import Shape
 
 Indices = NDArray[np.intp]
 

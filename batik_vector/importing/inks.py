@@ -18,7 +18,7 @@ from batik_vector.artwork import Cell, Geometries, Ink, Layer, Overlap
 from batik_vector.importing.document import Document
 from batik_vector.importing.fills import filled
 from batik_vector.importing.polylines import Lines
-from batik_vector.importing.walk import Shape
+from batik_vector.importing.scene import Shape
 from batik_vector.units import STEPS_PER_MM, format_mm
 from batik_vector.values import frozen
 
@@ -130,33 +130,17 @@ def layers_of(
         )
     names = _named_by_layer(keys) if ours else _named_by_colour(marks, keys)
     if not ours:
-        _stroke_notes(document, marks, cell, bleed, [names[key] for key in keys[1]])
+        _stroke_notes(document, [names[key] for key in keys[1]])
     return tuple(_layers(marks, keys, names, ours)), cloth
 
 
-def _stroke_notes(document: Document, marks: Marks, cell: Cell, bleed: float, inks: Sequence[str]) -> None:
-    """Tell of each ink that strokes, and of strokes whose body passes the page's edge without their line."""
-    if not inks:
-        return
-    half = np.array([shape.width for shape in marks.shapes])[marks.line_shape] / 2
-    bounds = shapely.bounds(marks.lines).reshape(-1, 4)
-    over = np.zeros(len(bounds), bool)
-    for axis, side in ((0, cell.width), (1, cell.height)):
-        low, high = bounds[:, axis], bounds[:, axis + 2]
-        for edge in (-bleed, side + bleed):
-            apart = np.maximum(low - edge, edge - high)
-            # A line that ends on the edge is cut there; one that lies on it has half its body beyond.
-            over |= ((apart > 0) & (apart < half)) | ((low == edge) & (high == edge))
-    of = np.array(inks, dtype=object)
+def _stroke_notes(document: Document, inks: Sequence[str]) -> None:
+    """Tell of each ink that strokes what its strokes count by."""
     for name in dict.fromkeys(inks):
-        document.note(f'the strokes of ink "{name}" are measured by their centre lines, not by their bodies')
-        count = int(over[of == name].sum())
-        if count:
-            document.note(
-                f'ink "{name}": {count:,} {"stroke runs" if count == 1 else "strokes run"} within half '
-                "its breadth of the page's edge; whether the part beyond comes back at the opposite edge "
-                "is not measured: expand strokes to outlines to have it measured"
-            )
+        document.note(
+            f'the strokes of ink "{name}" are measured by their bodies at the seam, and by their centre '
+            "lines for symmetry, doubles and slivers"
+        )
 
 
 def _without_cloth(document: Document, marks: Marks, cell: Cell, bleed: float) -> tuple[Marks, str]:

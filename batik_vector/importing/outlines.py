@@ -56,7 +56,7 @@ _TAKES = {"M": 2, "L": 2, "H": 1, "V": 1, "C": 6, "S": 4, "Q": 4, "T": 2, "A": 7
 
 
 def parse_path(text: str) -> Outline:
-    """Return the outline that path data draw (SVG 2, 9.3); subpaths of a mere point are left out.
+    """Return the outline that path data draw (SVG 2, 9.3); a mere move draws no subpath.
 
     Raises:
         ValueError: where the data break off or are none.
@@ -163,6 +163,9 @@ class _Pen:
             raise ValueError(f'path data begin with "{letter}", expected "M"')
         if command == "Z":
             if self.open:
+                if self.last == "M" and self.kinds[-1][-1] == MOVE:
+                    # Of no length, yet closed: caps make a dot of it.
+                    self._add(self.begin[None], LINE)
                 self.closed[-1] = True
             self.at, self.open = self.begin, False
         elif command == "M":

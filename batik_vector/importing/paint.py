@@ -35,7 +35,7 @@ def paint_of(document: Document, element: ET.Element, style: Style, what: str) -
         return ""
     server = url_of(text)
     if server is not None:
-        return _server(document, element, *server)
+        return _server(document, element, what, *server)
     found = colour_of(text, style["color"])
     if found is None:
         return _stand_in(document, style["color"] if text.lower() == "currentcolor" else text)
@@ -84,7 +84,7 @@ def _stand_in(document: Document, text: str) -> str:
     return colour
 
 
-def _server(document: Document, element: ET.Element, target: str, fallback: str) -> str:
+def _server(document: Document, element: ET.Element, what: str, target: str, fallback: str) -> str:
     """Return the one ink that a gradient stands for."""
     server = document.by_id.get(target[1:]) if target.startswith("#") else None
     kind = "" if server is None else local(server)
@@ -92,7 +92,7 @@ def _server(document: Document, element: ET.Element, target: str, fallback: str)
         document.note("a gradient is taken as one ink, in the colour it begins with")
         return _first_stop(document, server) or "#000000"
     if server is not None:
-        document.refuse(element, f"is filled with a {kind}; {EXPAND}")
+        document.refuse(element, f"is {'filled' if what == 'fill' else 'stroked'} with a {kind}; {EXPAND}")
     elif fallback and fallback != "none":
         found = colour_of(fallback)
         if found is None:

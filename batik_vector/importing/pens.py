@@ -11,6 +11,7 @@ import shapely
 from numpy.typing import NDArray
 
 from batik_vector.artwork import Geometries
+from batik_vector.importing.outlines import EMPTY, MOVE, Outline, box, ellipse, joined
 from batik_vector.importing.page import parse_px
 from batik_vector.importing.styles import Style
 from batik_vector.values import frozen
@@ -27,6 +28,8 @@ JOINS: dict[str, Join] = {
 }
 MOST_DASHES = 100_000
 """Dashes of one line past which it is taken as a whole one: it would look so."""
+FOLD_MM = 1e-6
+"""Mean breadth of a closed line up to which it is straight, there and back."""
 _COMMA = re.compile(r"[\s,]++")
 
 
@@ -77,17 +80,62 @@ def bodies(
         pieces = [dashed(line, pen) for line in lines]
         owner = np.repeat(owner, [len(each) for each in pieces])
         lines = np.array([piece for each in pieces for piece in each], dtype=object)
+    lines = lines.copy()
     radius = breadth / 2
     quarter = math.pi / 4 / math.acos(max(1 - tolerance / radius, 0.0)) if radius > tolerance else 1.0
-    found = shapely.buffer(
-        lines,
-        radius,
-        quad_segs=max(2, math.ceil(quarter)),
-        cap_style=pen.cap,
-        join_style=pen.join,
-        mitre_limit=pen.limit,
-    )
-    return np.asarray(found, dtype=object), owner
+    segments, found = max(2, math.ceil(quarter)), np.empty(len(lines), dtype=object)
+    folded = _folded(lines)
+    ends: Cap = "round" if pen.join == "round" else "flat"
+    for some, cap in ((~folded, pen.cap), (folded, ends)):
+        found[some] = shapely.buffer(
+            lines[some],
+            radius,
+            quad_segs=segments,
+            cap_style=cap,
+            join_style=pen.join,
+            mitre_limit=pen.limit,
+        )
+    return found, owner
+
+
+def _folded(lines: Geometries) -> NDArray[np.bool_]:
+    """Tell which closed lines are straight, there and back, and open these at an end, in place.
+
+    GEOS loses parts of their bodies; an open line that begins and ends where it folds has the same body.
+    """
+    closed = np.flatnonzero(shapely.is_closed(lines) & (shapely.get_num_coordinates(lines) > 3))
+    flat = closed[shapely.area(shapely.convex_hull(lines[closed])) <= FOLD_MM * shapely.length(lines[closed])]
+    folded = np.zeros(len(lines), bool)
+    folded[flat] = True
+    if len(flat):
+        lines[flat] = [_from_outermost(shapely.get_coordinates(line)) for line in lines[flat]]
+    return folded
+
+
+def _from_outermost(xy: NDArray[np.float64]) -> shapely.LineString:
+    """Return a closed line, shape (n, 2), as an open one from a point beyond which there is none."""
+    ring = np.roll(xy[:-1], -int(np.lexsort(xy[:-1].T)[0]), axis=0)
+    last = ring[-1] - ring[0]
+    short = ring[0] + last * min(FOLD_MM / float(np.hypot(*last)), 0.5)
+    return shapely.LineString(np.vstack([ring, short]))
+
+
+def dots(outline: Outline, pen: Pen, radius: float) -> Outline:
+    """Return the dots that a pen draws where subpaths have no length (SVG 2, 13.5.4).
+
+    Args:
+        outline: in the units of the shape, as are the dots.
+        pen: its cap makes them round or square; without one there are none.
+        radius: half the stroke's breadth.
+    """
+    begins = np.flatnonzero(outline.kinds == MOVE)
+    if pen.cap == "flat" or not len(begins):
+        return EMPTY
+    low, high = (ufunc.reduceat(outline.points, begins, axis=0) for ufunc in (np.minimum, np.maximum))
+    places = low[(low == high).all(axis=1)].tolist()
+    if pen.cap == "round":
+        return joined([ellipse(x, y, radius, radius) for x, y in places])
+    return joined([box(x - radius, y - radius, 2 * radius, 2 * radius) for x, y in places])
 
 
 def dashed(line: shapely.LineString, pen: Pen) -> list[shapely.LineString]:

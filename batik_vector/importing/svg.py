@@ -10,6 +10,7 @@ them off in print as on the screen.
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from fractions import Fraction
 
 import numpy as np
@@ -20,13 +21,13 @@ from batik_vector.importing.bodies import bodies_on_rim
 from batik_vector.importing.clips import clipped
 from batik_vector.importing.document import Document, DrawingError, children, load, local, parse
 from batik_vector.importing.inks import Marks, layers_of, painted
-from batik_vector.importing.matrix import Matrix
+from batik_vector.importing.matrix import PX_PER_INCH, Matrix
 from batik_vector.importing.outlines import CURVE, Outline, joined
 from batik_vector.importing.page import Page
 from batik_vector.importing.painting import Bodies
 from batik_vector.importing.polylines import Lines, flattened
+from batik_vector.importing.scene import Shape
 from batik_vector.importing.tilings import drawn
-from batik_vector.importing.walk import Shape
 from batik_vector.tiling.symmetry.repeats import parse_repeat
 from batik_vector.units import STEPS_PER_MM, format_mm
 from batik_vector.values import frozen
@@ -34,6 +35,10 @@ from batik_vector.values import frozen
 TOLERANCE_MM = 0.005
 ROUNDED_MM = 1e-6
 """What a page may be off whole micrometres without a word about it."""
+WHOLE_MM = 0.02
+"""How far a page in px may be off whole millimetres that it was meant to have."""
+OTHER_PX_PER_INCH = 72
+"""What older programs count; CSS counts 96."""
 NAMESPACE = b"urn:x-batik-vector:provenance"
 """Ours, as :mod:`batik_vector.export.provenance` writes it."""
 
@@ -147,6 +152,19 @@ def _page_notes(document: Document, page: Page, cell: Cell, bleed: float) -> Non
     pixels = any(size[-1:].isdigit() or size.endswith("px") for size in sizes)
     if pixels and "Illustrator" in document.generator:
         document.note("Illustrator counts 72 px to the inch, SVG 96: make sure that this is the size meant")
+    elif pixels and not document.generator and not page.guessed:
+        at_72 = [side * PX_PER_INCH / OTHER_PX_PER_INCH for side in given]
+        if _roundness(at_72) > _roundness(given):
+            there = " × ".join(format_mm(round(side)) for side in at_72)
+            document.note(f"at 72 px to the inch the page would be {there} mm: check that 96 is meant")
+
+
+def _roundness(sides: Sequence[float]) -> int:
+    """Return how round sides (mm) are: 10 where they are whole centimetres, 1 for millimetres, or else 0."""
+    for step in (10, 1):
+        if all(side > step / 2 and abs(side - round(side / step) * step) <= WHOLE_MM for side in sides):
+            return step
+    return 0
 
 
 def _title(document: Document) -> str:

@@ -15,8 +15,9 @@ from batik_vector.importing.outlines import box
 from batik_vector.importing.page import MM_PER_PX, Page, page_of
 from batik_vector.importing.paint import EXPAND
 from batik_vector.importing.patterns import MAX_CELLS, Pattern, fills_page
+from batik_vector.importing.scene import Shape, Tiling
 from batik_vector.importing.styles import share_of
-from batik_vector.importing.walk import Shape, Tiling, Walker
+from batik_vector.importing.walk import Walker
 from batik_vector.units import format_mm
 
 WINDOW_PX = 1000.0

@@ -21,7 +21,6 @@ from batik_vector.importing.document import (
     local,
     reference,
 )
-from batik_vector.importing.gradients import Gradient
 from batik_vector.importing.layer_names import layer_of
 from batik_vector.importing.matrix import IDENTITY, Matrix, spread, times
 from batik_vector.importing.origins import transform_of
@@ -29,11 +28,11 @@ from batik_vector.importing.outlines import Outline, box
 from batik_vector.importing.page import Box, Page, fitted, parse_px, view_box
 from batik_vector.importing.paint import EXPAND, look_of, paint_of
 from batik_vector.importing.painting import Paint
-from batik_vector.importing.patterns import Pattern, pattern_of, server_of
-from batik_vector.importing.pens import Pen, pen_of
+from batik_vector.importing.patterns import pattern_of, server_of
+from batik_vector.importing.pens import dots, pen_of
+from batik_vector.importing.scene import Here, Shape, Tiling
 from batik_vector.importing.shapes import SHAPES, outline_of
 from batik_vector.importing.styles import GEOMETRY, INITIAL, MOVES, Style, Styles, share_of
-from batik_vector.values import frozen
 
 MAX_SHAPES = 1_000_000
 MAX_POINTS = 20_000_000
@@ -52,59 +51,6 @@ _REFUSED = {
     "canvas": "is no geometry",
     "iframe": "is no geometry",
 }
-
-
-@frozen(eq=False)
-class Shape:
-    """Something painted: its outline in mm on the page, y down, and how it is filled and stroked.
-
-    ``fill`` and ``stroke`` are ``#rrggbb``, or nothing. ``label`` is the name of the layer it lies in,
-    ``name`` its own. ``width`` is the stroke's, in mm. ``looks`` are the paints of fill and stroke as they
-    show on a screen, None where that cannot be told, and ``pen`` is how a stroke's body is drawn. Of all
-    that, what lies in every one of ``clips`` shows. A ``tiling`` stands for a fill by a pattern.
-    """
-
-    outline: Outline
-    label: str
-    name: str
-    fill: str
-    rule: str
-    stroke: str
-    width: float
-    looks: tuple[Paint | None, Paint | None]
-    pen: Pen
-    clips: tuple[Clip, ...] = ()
-    tiling: Tiling | None = None
-
-    def under(self, matrix: Matrix) -> Shape:
-        """Return the shape with paints for a page that is moved by an affine map, its outline left alone."""
-        if all(look is None or look.ramp is None for look in self.looks):
-            return self
-        one, other = (None if look is None else _under(look, matrix) for look in self.looks)
-        return replace(self, looks=(one, other))
-
-
-@frozen
-class Here:
-    """What holds at one place of the tree."""
-
-    matrix: Matrix
-    style: Style
-    label: str = ""
-    size: tuple[float, float] = (0.0, 0.0)
-    used: tuple[ET.Element, ...] = ()
-    depth: int = 0
-    clips: tuple[Clip, ...] = ()
-    opacity: float = 1.0
-
-
-@frozen(eq=False)
-class Tiling:
-    """A fill by a pattern whose cells are still to be drawn; ``here`` is where the filled mark stands."""
-
-    element: ET.Element
-    pattern: Pattern
-    here: Here
 
 
 class Walker:
@@ -298,6 +244,21 @@ class Walker:
             self._tile(element, shape, here, (server, box_of([drawn])))
         if fill or stroke:
             self.shapes.append(shape)
+        if stroke:
+            self._dot(shape, drawn, width, here)
+
+    def _dot(self, shape: Shape, drawn: Outline, width: float, here: Here) -> None:
+        """Draw where a stroke has no length: dots are areas of its ink, over the fill."""
+        if here.style.get("vector-effect") == "non-scaling-stroke":
+            outline = dots(shape.outline, shape.pen, shape.width / 2)
+        else:
+            outline = dots(drawn, shape.pen, width / 2).moved(here.matrix)
+        if len(outline.points):
+            looks = shape.looks[1], Paint("", "#000000")
+            dotted = replace(
+                shape, outline=outline, fill=shape.stroke, rule="nonzero", stroke="", looks=looks
+            )
+            self.shapes.append(dotted)
 
     def _tile(
         self, element: ET.Element, shape: Shape, here: Here, paint: tuple[ET.Element, Box | None]
@@ -379,10 +340,6 @@ class Walker:
         self._enter(element, replace(here, matrix=IDENTITY, used=(*here.used, element)), False)
         found, self._measured = self._measured, kept
         return box_of(found)
-
-
-def _under(look: Paint, matrix: Matrix) -> Paint:
-    return replace(look, ramp=look.ramp.under(matrix)) if isinstance(look.ramp, Gradient) else look
 
 
 def _opacity(style: Style) -> float:

@@ -38,7 +38,7 @@ from tests.importing.drawings import DISC, MIXED, svg
         ('<pattern id="p" width="1em" height="1"><rect width="9" height="9"/></pattern>'
          '<path d="M0 0h9v9z" fill="url(#p)"/>', 'width = "1em", expected a length'),
         ('<pattern id="p" width="1" height="1"><rect width="9" height="9"/></pattern>'
-         '<path d="M0 0h9v9z" stroke="url(#p)"/>', "is filled with a pattern; expand"),
+         '<path d="M0 0h9v9z" stroke="url(#p)"/>', "is stroked with a pattern; expand"),
         ('<path d="M0 0h9v9z" stroke="red" marker-end="url(#m)"/>', "has markers"),
         ('<use href="other.svg#leaf"/>', 'refers to "other.svg#leaf", another file'),
         ('<use href="#nowhere"/>', 'refers to "#nowhere", nothing in the file'),

@@ -311,3 +311,48 @@ def bezier(control: np.ndarray, t: np.ndarray) -> np.ndarray:
     return np.asarray(
         s**3 * control[0] + 3 * s * s * u * control[1] + 3 * s * u * u * control[2] + u**3 * control[3]
     )
+
+
+@pytest.mark.parametrize(
+    ("mark", "cap", "area"),
+    [
+        ('<path d="M50 50h0"', "round", math.pi * 4),
+        ('<path d="M50 50z"', "square", 16),
+        ('<line x1="50" y1="50" x2="50" y2="50"', "round", math.pi * 4),
+        ('<polyline points="50 50 50 50"', "square", 16),
+        ('<path transform="scale(2 1)" d="M20 50l0 0m9 9c0 0 0 0 0 0"', "square", 64),
+        ('<path vector-effect="non-scaling-stroke" transform="scale(2)" d="M20 20h0"', "square", 16),
+        ('<path d="M50 50h0"', "butt", 0),
+        ('<path d="M50 50"', "round", 0),
+    ],
+)
+def test_strokes_of_no_length_are_dots(mark: str, cap: str, area: float) -> None:
+    line = f'{mark} stroke="red" stroke-width="4" stroke-linecap="{cap}" fill="none"/>'
+    found = covered(read_tile(svg(DISC + line))).get("#ff0000", 0.0)
+    assert found == pytest.approx(area, rel=1e-2)
+
+
+@pytest.mark.parametrize(
+    ("size", "told"),
+    [
+        (("283.465", "283.465"), "100 × 100"),
+        (("283.46px", "141.73px"), "100 × 50"),
+        (("377.953", "377.953"), ""),
+        (("283.465", "300"), ""),
+        (("300", "300"), ""),
+        (("360", "360"), "127 × 127"),
+        (("1440", "1440"), ""),
+        (("113.386", "226.772"), ""),
+        (("75mm", "75mm"), ""),
+    ],
+)
+def test_sizes_that_72_px_to_the_inch_make_whole_are_told(size: tuple[str, str], told: str) -> None:
+    head = f'width="{size[0]}" height="{size[1]}" viewBox="0 0 100 100"'
+    notes = [note for note in read_svg(svg(DISC, head)).notes if "72 px" in note]
+    words = f"at 72 px to the inch the page would be {told} mm: check that 96 is meant"
+    assert notes == ([words] if told else [])
+
+
+def test_where_a_generator_is_named_it_is_believed() -> None:
+    head = 'width="283.465" height="283.465" viewBox="0 0 100 100"'
+    assert not [note for note in read_svg(svg(DISC, head)).notes if "72 px" in note]
