@@ -23,6 +23,12 @@ class FillRule(enum.StrEnum):
     """All within the outer boundary."""
 
 
+GRID = 1e-11
+"""Step of the grid on which lost faces are looked for, as a part of the greatest coordinate."""
+LOST = 1e-9
+"""Part of the area from which faces count as lost."""
+
+
 def settle(rings: Sequence[Points], rule: FillRule = FillRule.NONZERO) -> Geometries:
     """Return the region that rings enclose as valid polygons, outer rings anticlockwise.
 
@@ -37,8 +43,7 @@ def settle(rings: Sequence[Points], rule: FillRule = FillRule.NONZERO) -> Geomet
     polygons = np.array([shapely.Polygon(ring) for ring in rings], dtype=object)
     if shapely.is_valid(polygons).all() and not _interfere(polygons):
         return oriented(polygons)
-    noded = shapely.union_all([shapely.LineString(ring) for ring in rings])
-    faces = shapely.get_parts(shapely.polygonize(shapely.get_parts(noded)))
+    faces = _faces([shapely.LineString(ring) for ring in rings])
     if rule == FillRule.OUTLINE:
         inside = faces
     else:
@@ -48,6 +53,23 @@ def settle(rings: Sequence[Points], rule: FillRule = FillRule.NONZERO) -> Geomet
     if rule == FillRule.OUTLINE:
         merged = shapely.get_parts(shapely.union_all(shapely.polygons(shapely.get_exterior_ring(merged))))
     return oriented(merged)
+
+
+def _faces(lines: Sequence[shapely.LineString]) -> Geometries:
+    """Return the faces that closed lines divide the plane into, but for the outermost.
+
+    Where edges run over one another but for the last bits of their floats, GEOS may not find all crossings,
+    and loses faces whose border then has a gap: these are looked for once more on a grid, where none is lost.
+    """
+    noded = shapely.get_parts(shapely.union_all(lines))
+    found, cuts, dangles, _ = shapely.polygonize_full(noded)
+    faces = np.asarray(shapely.get_parts(found), dtype=object)
+    if shapely.is_empty(cuts) and shapely.is_empty(dangles):
+        return faces
+    grid = GRID * float(np.abs(shapely.get_coordinates(lines)).max())
+    again = shapely.get_parts(shapely.polygonize(shapely.get_parts(shapely.union_all(lines, grid_size=grid))))
+    lost = float(shapely.area(again).sum() - shapely.area(faces).sum())
+    return np.asarray(again, dtype=object) if lost > LOST * float(shapely.area(again).sum()) else faces
 
 
 def _merged(faces: Geometries) -> Geometries:

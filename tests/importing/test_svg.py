@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from batik_vector.artwork import Artwork, Layer, Overlap
 from batik_vector.export import render
+from batik_vector.importing.pens import Join, Pen, bodies
 from batik_vector.importing.svg import read_svg, read_tile
 from tests.clients.pictures import differing, reference
 from tests.importing.drawings import DISC, MIXED, svg
@@ -354,5 +355,17 @@ def test_sizes_that_72_px_to_the_inch_make_whole_are_told(size: tuple[str, str],
 
 
 def test_where_a_generator_is_named_it_is_believed() -> None:
-    head = 'width="283.465" height="283.465" viewBox="0 0 100 100"'
-    assert not [note for note in read_svg(svg(DISC, head)).notes if "72 px" in note]
+    drawing = b"<!-- Generator: Sketch 52 -->" + svg(DISC, 'width="283.465" height="283.465"')
+    assert not [note for note in read_svg(drawing).notes if "72 px" in note]
+
+
+def test_a_ring_that_runs_back_over_its_own_curve_keeps_its_face() -> None:
+    ring = '<path d="M0 0C0 0 0 0 0 1S4 4 20 0Q0 0 0 0T1 0z" fill="#ff0000"/>'
+    assert covered(read_tile(svg(ring)))["#ff0000"] == pytest.approx(32.8, abs=0.05)
+
+
+@pytest.mark.parametrize(("join", "area"), [("mitre", 100.0), ("round", 100.0 + math.pi / 4)])
+def test_a_straight_line_there_and_back_has_its_whole_body(join: Join, area: float) -> None:
+    line = shapely.LineString([(30, 0), (100, 0), (0, 0), (30, 0)])
+    (body,), _ = bodies(np.array([line], dtype=object), 1.0, Pen("flat", join, 4.0), 0.005)
+    assert body.area == pytest.approx(area, rel=1e-3)
