@@ -28,6 +28,8 @@ JOINS: dict[str, Join] = {
 }
 MOST_DASHES = 100_000
 """Dashes of one line past which it is taken as a whole one: it would look so."""
+BLUNT = 0.999
+"""Square of the cosine of half a turn from which a mitre is no more than a bevel."""
 FOLD_MM = 1e-6
 """Mean breadth of a closed line up to which it is straight, there and back."""
 _COMMA = re.compile(r"[\s,]++")
@@ -86,16 +88,51 @@ def bodies(
     segments, found = max(2, math.ceil(quarter)), np.empty(len(lines), dtype=object)
     folded = _folded(lines)
     ends: Cap = "round" if pen.join == "round" else "flat"
+    tips, at = _mitres(lines, radius, pen.limit) if pen.join == "mitre" else (lines[:0], owner[:0])
+    sharp = np.isin(np.arange(len(lines)), at)
     for some, cap in ((~folded, pen.cap), (folded, ends)):
-        found[some] = shapely.buffer(
-            lines[some],
-            radius,
-            quad_segs=segments,
-            cap_style=cap,
-            join_style=pen.join,
-            mitre_limit=pen.limit,
-        )
+        for these, join in ((some & ~sharp, pen.join), (some & sharp, "bevel")):
+            found[these] = shapely.buffer(
+                lines[these],
+                radius,
+                quad_segs=segments,
+                cap_style=cap,
+                join_style=join,
+                mitre_limit=pen.limit,
+            )
+    for row in np.unique(at).tolist():
+        found[row] = shapely.union_all([found[row], *tips[at == row]])
     return found, owner
+
+
+def _mitres(lines: Geometries, radius: float, limit: float) -> tuple[Geometries, NDArray[np.intp]]:
+    """Return the mitres of lines that have sharper corners, too, and the line of each.
+
+    SVG bevels a corner past the limit, where GEOS cuts its mitre off at the limit.
+    """
+    xy, line = shapely.get_coordinates(lines, return_index=True)
+    closed = shapely.is_closed(lines)
+    first = np.searchsorted(line, np.arange(len(lines)))
+    # A closed line has a corner where it ends, too: its second point stands behind the last.
+    rank = np.concatenate([np.arange(len(xy)), np.searchsorted(line, np.flatnonzero(closed), "right") - 0.5])
+    order = np.argsort(rank, kind="stable")
+    xy = np.concatenate([xy, xy[first[closed] + 1]])[order]
+    line = np.concatenate([line, np.flatnonzero(closed)])[order]
+    step = np.diff(xy, axis=0)
+    step /= np.maximum(np.hypot(*step.T), 1e-12)[:, None]
+    inner = (line[:-2] == line[2:]) if len(line) > 2 else np.zeros(0, bool)
+    one, other, corner, of = step[:-1][inner], step[1:][inner], xy[1:-1][inner], line[1:-1][inner]
+    # The square of the cosine of half the turn; the limit is of its inverse.
+    half = (1 + (one * other).sum(axis=1)) / 2
+    past = half * limit**2 < 1
+    drawn = ~past & (half < BLUNT) & np.isin(of, of[past])
+    side = -np.sign(one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0])[drawn, None] * radius
+    begin, end = (np.column_stack([-way[drawn, 1], way[drawn, 0]]) * side for way in (one, other))
+    tip = (begin + end) / (2 * half[drawn, None])
+    places = corner[drawn, None] + np.stack([np.zeros_like(tip), begin, tip, end], axis=1)
+    bevelled = np.setdiff1d(of[past], of[drawn])
+    empty = np.full(len(bevelled), shapely.Polygon(), dtype=object)
+    return np.concatenate([shapely.polygons(places), empty]), np.concatenate([of[drawn], bevelled])
 
 
 def _folded(lines: Geometries) -> NDArray[np.bool_]:

@@ -369,3 +369,19 @@ def test_a_straight_line_there_and_back_has_its_whole_body(join: Join, area: flo
     line = shapely.LineString([(30, 0), (100, 0), (0, 0), (30, 0)])
     (body,), _ = bodies(np.array([line], dtype=object), 1.0, Pen("flat", join, 4.0), 0.005)
     assert body.area == pytest.approx(area, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("places", "area"),
+    [
+        ([(0, 0), (10, 0), (10, 10), (0, 10), (0, 0)], 40.0),
+        ([(0, 0), (10, 0), (10, 10), (20, 10), (10, 10)], 30.0 - 0.25),
+        ([(0, 0), (20, 0), (0, 1)], 20.0 + 20.025 - 5.0),
+    ],
+)
+def test_mitres_past_their_limit_are_bevelled(places: list[tuple[float, float]], area: float) -> None:
+    line = np.array([shapely.LineString(places)], dtype=object)
+    (body,), _ = bodies(line, 1.0, Pen("flat", "mitre", 4.0), 0.005)
+    assert body.bounds[2] <= 20.1
+    if len(places) > 3:
+        assert body.area == pytest.approx(area, abs=0.3)
