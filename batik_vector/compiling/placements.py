@@ -149,7 +149,7 @@ def _drawn(
     on_cloth = orbit.base @ Affine.translation(at) @ Affine.turn(placement.turn) @ Affine.scale(scale)
     laid = Laid(figures, on_cloth @ copies, orbit.is_trivial)
     if orbit.region:
-        laid = _mirrored(laid, orbit)
+        laid = _mirrored(laid, orbit, finest)
     elif not orbit.is_trivial:
         laid = replace(laid, maps=orbit.images(laid.maps, _marks_of(figures), finest / scale))
     return foretold, _placed({placement.motifs[0]: laid}, placement, inks, fineness)
@@ -168,10 +168,10 @@ def _coarse(motif: Motif, images: Affines | Bend, finest: float, scale: float | 
     return max(least, _rung(finest / scale / float(images.stretches.max())))
 
 
-def _mirrored(laid: Laid, orbit: Orbit) -> Laid:
+def _mirrored(laid: Laid, orbit: Orbit, crumb: float) -> Laid:
     """Return what the region of an orbit leaves of copies, and all its images, in mm."""
     figures = [
-        replace(figure, areas=orbit.mirrored(figure.areas), lines=orbit.mirrored(figure.lines))
+        replace(figure, areas=orbit.mirrored(figure.areas), lines=orbit.mirrored(figure.lines, crumb))
         for figure in sized(laid.figures, laid.maps)
     ]
     return Laid(figures, ONE)
