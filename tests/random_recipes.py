@@ -1,4 +1,3 @@
-# ruff: noqa: E501
 """Random recipes as people write them: pages of TOML, each made of a number and always the same.
 
 Where ``recipes.py`` looks for extremes of every value, these are everyday recipes of all repeats: a few motifs in
@@ -170,8 +169,9 @@ class _Writer:
     def ground(self) -> str:
         chance = self.chance
         if chance.random() < 0.6:
+            distance, count = chance.choice([0, 0.3, 1]), chance.randint(1, 12) // self.images + 1
             return (
-                f'kind = "toss", distance = {chance.choice([0, 0.3, 1])}, count = {chance.randint(1, 12) // self.images + 1}, '
+                f'kind = "toss", distance = {distance}, count = {count}, '
                 f'flip = true, clear = "{chance.choice(["tossed", "none", "none"])}", tries = 50, settle = 2'
             )
         winding = chance.choice(["[1, 0]", "[0, 1]", "[1, 1]", "[1, -1]"])
