@@ -217,7 +217,7 @@ def _ground(
             for (name, motif), copies in zip(motifs.items(), tossed.copies, strict=True):
                 if copies:
                     _refuse_past(limit, rough[name], copies, times, finer)
-                    drawn[name] = _multiplied(Laid(*_set_out(motif, copies, finest)), orbit)
+                    drawn[name] = _multiplied(Laid(*_set_out(motif, copies, finest)), orbit, finest)
         elif isinstance(placement.layout, Stripes):
             lines = striped(placement, placement.layout, scale, unit, ground)
             for name, motif in motifs.items():
@@ -226,13 +226,13 @@ def _ground(
                     replace(figure, areas=lines.areas(figure.areas), lines=lines.lines(figure.lines))
                     for figure in _shown(draw(motif, finest / lines.stretch))
                 ]
-                drawn[name] = _multiplied(Laid(figures, ONE), orbit)
+                drawn[name] = _multiplied(Laid(figures, ONE), orbit, finest)
     return _placed(drawn, placement, inks, recipe.tolerance, tossed)
 
 
-def _multiplied(laid: Laid, orbit: Orbit) -> Laid:
+def _multiplied(laid: Laid, orbit: Orbit, crumb: float) -> Laid:
     """Return copies, in mm, and their images under the symmetry."""
-    return _mirrored(laid, orbit) if orbit.region else replace(laid, maps=orbit.multiplied(laid.maps))
+    return _mirrored(laid, orbit, crumb) if orbit.region else replace(laid, maps=orbit.multiplied(laid.maps))
 
 
 def _refuse_past(

@@ -31,8 +31,9 @@ def passes(number: int) -> None:
         artwork = compile_recipe(recipe)
     except RecipeError as error:
         # Nothing may be left to draw, or a toss find no room.
-        assert any(words in str(error) for words in NO_TILE)
-        return
+        if any(words in str(error) for words in NO_TILE):
+            pytest.skip(str(error))
+        raise
     assert certify(artwork, asked=_asked(recipe)).faults == ()
 
 
