@@ -1,6 +1,6 @@
 """Random recipes as people write them: TOML, each made of a number and always the same.
 
-Where ``recipes.py`` looks for extremes of every value, these are everyday recipes of all repeats: a few motifs
+Where ``recipes.py`` looks for extremes of every value, these are everyday recipes of all repeats: motifs
 in a few inks, placed, tossed and laid in stripes over one another, with gaps, lines and bodies of lines.
 """
 
