@@ -36,7 +36,7 @@ NEAR = 4
 """How many times the slack an image is looked for around a point, at the least; limits stay below it."""
 
 FINE = 0.5
-"""The share of the outline of an ink up to which it may be such; one drawn in nothing but these counts."""
+"""The share of the outline of an ink up to which it may be hairs or ends; where more is, all of it counts."""
 
 MEASURED = 256
 """Points beyond reach whose distance is worked out one by one where a failure is reported."""
