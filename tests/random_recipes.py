@@ -1,8 +1,7 @@
-# ruff: noqa: E501
-"""Random recipes as people write them: pages of TOML, each made of a number and always the same.
+"""Random recipes as people write them: TOML, each made of a number and always the same.
 
-Where ``recipes.py`` looks for extremes of every value, these are everyday recipes of all repeats: a few motifs in
-a few inks, placed, tossed and laid in stripes over one another, with gaps, lines and bodies of lines.
+Where ``recipes.py`` looks for extremes of every value, these are everyday recipes of all repeats: motifs
+in a few inks, placed, tossed and laid in stripes over one another, with gaps, lines and bodies of lines.
 """
 
 from __future__ import annotations
@@ -106,7 +105,8 @@ class _Writer:
             lambda: f'kind = "rose", n = {chance.randint(2, 7)}, d = {chance.randint(1, 3)}, length = {size}',
             lambda: f'kind = "petal", n = {chance.randint(1, 6)}, length = {size}',
             lambda: (
-                f'kind = "hypocycloid", m = {chance.choice([5, 7, 11])}, n = {chance.randint(1, 3)}, length = {size}'
+                f'kind = "hypocycloid", m = {chance.choice([5, 7, 11])}, n = {chance.randint(1, 3)}, '
+                f"length = {size}"
             ),
             lambda: f'kind = "polygon", sides = {chance.randint(3, 8)}, radius = {size}',
             lambda: (
@@ -146,13 +146,16 @@ class _Writer:
         size = small * chance.uniform(0.1, 0.5) / math.sqrt(self.images) ** 0.5
         lines += [
             f"scale = {size:.3f}",
-            f"at = [{chance.uniform(-self.width, self.width):.2f}, {chance.uniform(-self.height, self.height):.2f}]",
+            f"at = [{self.within(self.width)}, {self.within(self.height)}]",
             f"turn = {chance.uniform(0, 360):.1f}",
             f"layout = {{ {self.layout()} }}",
         ]
         if self.repeat in GROUPS and chance.random() < 0.5:
             lines.append(f'region = "{chance.choice(["free", "centre", "cut"])}"')
         return lines
+
+    def within(self, side: float) -> str:
+        return f"{self.chance.uniform(-side, side):.2f}"
 
     def layout(self) -> str:
         chance = self.chance
@@ -170,8 +173,9 @@ class _Writer:
     def ground(self) -> str:
         chance = self.chance
         if chance.random() < 0.6:
+            distance, count = chance.choice([0, 0.3, 1]), chance.randint(1, 12) // self.images + 1
             return (
-                f'kind = "toss", distance = {chance.choice([0, 0.3, 1])}, count = {chance.randint(1, 12) // self.images + 1}, '
+                f'kind = "toss", distance = {distance}, count = {count}, '
                 f'flip = true, clear = "{chance.choice(["tossed", "none", "none"])}", tries = 50, settle = 2'
             )
         winding = chance.choice(["[1, 0]", "[0, 1]", "[1, 1]", "[1, -1]"])

@@ -149,7 +149,7 @@ def _drawn(
     on_cloth = orbit.base @ Affine.translation(at) @ Affine.turn(placement.turn) @ Affine.scale(scale)
     laid = Laid(figures, on_cloth @ copies, orbit.is_trivial)
     if orbit.region:
-        laid = _mirrored(laid, orbit)
+        laid = _mirrored(laid, orbit, finest)
     elif not orbit.is_trivial:
         laid = replace(laid, maps=orbit.images(laid.maps, _marks_of(figures), finest / scale))
     return foretold, _placed({placement.motifs[0]: laid}, placement, inks, fineness)
@@ -168,10 +168,10 @@ def _coarse(motif: Motif, images: Affines | Bend, finest: float, scale: float | 
     return max(least, _rung(finest / scale / float(images.stretches.max())))
 
 
-def _mirrored(laid: Laid, orbit: Orbit) -> Laid:
+def _mirrored(laid: Laid, orbit: Orbit, crumb: float) -> Laid:
     """Return what the region of an orbit leaves of copies, and all its images, in mm."""
     figures = [
-        replace(figure, areas=orbit.mirrored(figure.areas), lines=orbit.mirrored(figure.lines))
+        replace(figure, areas=orbit.mirrored(figure.areas), lines=orbit.mirrored(figure.lines, crumb))
         for figure in sized(laid.figures, laid.maps)
     ]
     return Laid(figures, ONE)
@@ -217,7 +217,7 @@ def _ground(
             for (name, motif), copies in zip(motifs.items(), tossed.copies, strict=True):
                 if copies:
                     _refuse_past(limit, rough[name], copies, times, finer)
-                    drawn[name] = _multiplied(Laid(*_set_out(motif, copies, finest)), orbit)
+                    drawn[name] = _multiplied(Laid(*_set_out(motif, copies, finest)), orbit, finest)
         elif isinstance(placement.layout, Stripes):
             lines = striped(placement, placement.layout, scale, unit, ground)
             for name, motif in motifs.items():
@@ -226,13 +226,13 @@ def _ground(
                     replace(figure, areas=lines.areas(figure.areas), lines=lines.lines(figure.lines))
                     for figure in _shown(draw(motif, finest / lines.stretch))
                 ]
-                drawn[name] = _multiplied(Laid(figures, ONE), orbit)
+                drawn[name] = _multiplied(Laid(figures, ONE), orbit, finest)
     return _placed(drawn, placement, inks, recipe.tolerance, tossed)
 
 
-def _multiplied(laid: Laid, orbit: Orbit) -> Laid:
+def _multiplied(laid: Laid, orbit: Orbit, crumb: float) -> Laid:
     """Return copies, in mm, and their images under the symmetry."""
-    return _mirrored(laid, orbit) if orbit.region else replace(laid, maps=orbit.multiplied(laid.maps))
+    return _mirrored(laid, orbit, crumb) if orbit.region else replace(laid, maps=orbit.multiplied(laid.maps))
 
 
 def _refuse_past(

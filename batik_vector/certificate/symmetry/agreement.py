@@ -5,7 +5,8 @@ that carries the outline into itself carries it onto itself: its inverse is one 
 
 Hairs and slits do not count: where marks nearly touch, or cross at a sharp angle, a rounding decides whether
 a sliver of a micrometre stands or not, and how far a needle runs. Points that have the other side of their
-ink, or of the ground beside it, within the breadth of a hair are not asked of.
+ink, or of the ground beside it, within the breadth of a hair are not asked of. Nor do the last bits of
+lines count, and crumbs that are nothing else: a line cut off at a sharp angle ends here or there.
 """
 
 from __future__ import annotations
@@ -35,7 +36,7 @@ NEAR = 4
 """How many times the slack an image is looked for around a point, at the least; limits stay below it."""
 
 FINE = 0.5
-"""The share of the outline of an ink up to which it may be hairs; one drawn in nothing else is measured."""
+"""The share of the outline of an ink up to which it may be hairs or ends; where more is, all of it counts."""
 
 MEASURED = 256
 """Points beyond reach whose distance is worked out one by one where a failure is reported."""
@@ -156,15 +157,38 @@ class Matcher:
     @cached_property
     def _fine(self) -> Indices:
         """The kinds that are drawn in hairs, of which every point counts."""
-        thin = self._narrow(self.few)
+        thin = self._thin(self.few)
         kinds = np.unique(self.few.kind)
         return kinds[[bool(thin[self.few.kind == kind].mean() > FINE) for kind in kinds]]
 
     def _on_hairs(self, samples: Samples) -> NDArray[np.bool_]:
-        """Return which points stand on the border of a hair or a slit."""
+        """Return which points stand on the border of a hair or a slit, or where a line ends."""
         if not len(samples.kind):
             return np.zeros(0, bool)
-        return self._narrow(samples) & ~np.isin(samples.kind, self._fine)
+        return self._thin(samples) & ~np.isin(samples.kind, self._fine)
+
+    def _thin(self, samples: Samples) -> NDArray[np.bool_]:
+        return self._narrow(samples) | self._ending(samples)
+
+    def _ending(self, samples: Samples) -> NDArray[np.bool_]:
+        """Return which points stand on a centre line within the slack of where one ends."""
+        found = np.zeros(len(samples.kind), bool)
+        for kind, tree in self._ends.items():
+            mine = np.flatnonzero(samples.kind == kind)
+            near = tree.query(shapely.points(samples.xy[mine]), predicate="dwithin", distance=self.slack)
+            found[mine[near[0]]] = True
+        return found
+
+    @cached_property
+    def _ends(self) -> dict[int, shapely.STRtree]:
+        """Where the centre lines of each kind end: the vertices that only one edge has."""
+        found = {}
+        for kind in np.unique(self.edges.kind[self.edges.kind % 2 == 1]).tolist():
+            mine = self.edges.kind == kind
+            vertices = np.concatenate([self.edges.begin[mine], self.edges.end[mine]])
+            places, times = np.unique(vertices, axis=0, return_counts=True)
+            found[kind] = shapely.STRtree(shapely.points(places[times == 1]))
+        return found
 
     def _narrow(self, samples: Samples) -> NDArray[np.bool_]:
         """Return which points have an edge that runs the other way within reach."""

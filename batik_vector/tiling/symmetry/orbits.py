@@ -32,6 +32,9 @@ no vertices in common, and rounded to the grid would leave slits. It is the tent
 NEAR = 1e-6
 """In grid steps: how far floats may put what lies on a half step beside it."""
 
+LEVEL = 1e-9
+"""Slope up to which floats may turn an edge that runs along an axis."""
+
 NEVER = 10**12
 """Grid steps to the next repeat where there is none: a thousand kilometres."""
 
@@ -42,22 +45,31 @@ class Region:
 
     Attributes:
         corners: in grid steps, anticlockwise.
-        lapped: for each edge, from its corner to the next, whether pieces lap over it: where it or an image
-            of it runs aslant and is no mirror.
+        mirrored: for each edge, from its corner to the next, whether it is a mirror.
     """
 
     corners: tuple[Shift, ...]
-    lapped: tuple[bool, ...]
+    mirrored: tuple[bool, ...]
 
-    @property
-    def shape(self) -> shapely.Polygon:
-        """What marks are cut to, in grid steps."""
-        if not any(self.lapped):
+    def lapped(self, operation: Affine) -> tuple[bool, ...]:
+        """Return over which edges pieces lap that an operation carries to their place.
+
+        Where the image of an edge runs along an axis, all that meets there is rounded to one line: a lap
+        would stand over it as a strip of ink.
+        """
+        corners = operation.at(np.array(self.corners))
+        along = np.abs(np.roll(corners, -1, axis=0) - corners)
+        aslant = along.min(axis=1) > LEVEL * along.max(axis=1)
+        return tuple((aslant & ~np.array(self.mirrored, bool)).tolist())
+
+    def shape(self, lapped: tuple[bool, ...]) -> shapely.Polygon:
+        """Return what marks are cut to, in grid steps, that lap over some of the edges."""
+        if not any(lapped):
             return shapely.Polygon(self.corners)
         corners = np.array(self.corners)
         along = np.roll(corners, -1, axis=0) - corners
         outward = np.column_stack([along[:, 1], -along[:, 0]]) / np.hypot(*along.T)[:, None]
-        reach = (outward * corners).sum(axis=1) + np.where(self.lapped, LAP, 0.0)
+        reach = (outward * corners).sum(axis=1) + np.where(lapped, LAP, 0.0)
         # Each corner is where its edge and the one before it meet, once they are moved.
         pairs = np.stack([np.roll(outward, 1, axis=0), outward], axis=1)
         moved = np.linalg.solve(pairs, np.stack([np.roll(reach, 1), reach], axis=1)[:, :, None])
@@ -110,23 +122,29 @@ class Orbit:
         """Return all images of copies, the copies running fastest."""
         return Affines.of(self.operations).after(Affines.of(copies))
 
-    def mirrored(self, marks: Geometries) -> Geometries:
+    def mirrored(self, marks: Geometries, crumb: float = 0.0) -> Geometries:
         """Return marks (mm) wrapped by the periods, cut to the region, and all images of the pieces.
 
-        Pieces on two sides of a mirror have the same vertices on it: they weld without a slit.
+        Pieces on two sides of a mirror have the same vertices on it: they weld without a slit. Of lines that
+        are cut no pieces shorter than ``crumb`` (mm) are kept.
 
         Raises:
             TooLargeError: with the estimate, where a mark reaches over too many repeats.
         """
         if self.region is None or not len(marks):
             return marks
-        shape = self.region.shape
         steps = np.asarray(shapely.transform(marks, lambda xy: xy * STEPS_PER_MM), dtype=object)
-        low_x, low_y, high_x, high_y = shape.bounds
+        low_x, low_y, high_x, high_y = self.region.shape((True,) * len(self.region.corners)).bounds
         window = Window(math.floor(low_x), math.floor(low_y), math.ceil(high_x), math.ceil(high_y))
         self._refuse_too_many(steps, window)
-        pieces = _within(*wrap(steps, np.arange(len(steps)), self._lattice(), window), shape)
-        images = [_on_steps(operation).apply(pieces) for operation in self.operations]
+        there = wrap(steps, np.arange(len(steps)), self._lattice(), window)
+        maps = [_on_steps(operation) for operation in self.operations]
+        laps = [self.region.lapped(each) for each in maps]
+        pieces = {
+            lapped: _within(*there, self.region.shape(lapped), crumb * STEPS_PER_MM)
+            for lapped in dict.fromkeys(laps)
+        }
+        images = [each.apply(pieces[lapped]) for each, lapped in zip(maps, laps, strict=True)]
         return to_mm(_on_grid(np.concatenate(images)))
 
     def _refuse_too_many(self, marks: Geometries, window: Window) -> None:
@@ -188,8 +206,10 @@ def _cut(shares: Array) -> float:
     return float(around[at] + gaps[at] / 2)
 
 
-def _within(marks: Geometries, names: Indices, shape: shapely.Polygon) -> Geometries:
+def _within(marks: Geometries, names: Indices, shape: shapely.Polygon, crumb: float) -> Geometries:
     """Return the pieces of marks inside a convex shape, in floats; those of one name that meet are joined.
+
+    Pieces of lines shorter than ``crumb`` are left out.
 
     A mark as large as the repeat comes in by several translates: joined here it is multiplied once, and has
     fewer edges that all but coincide along the mirrors.
@@ -202,6 +222,7 @@ def _within(marks: Geometries, names: Indices, shape: shapely.Polygon) -> Geomet
     )
     run = shapely.intersection(marks[~areal & ~whole], shape)
     lines, _ = lines_of(run, np.zeros(len(run), np.intp))
+    lines = lines[shapely.length(lines) > crumb]
     several = np.bincount(of)[of] > 1 if len(of) else np.zeros(0, bool)
     if several.any():
         order = np.argsort(of[several], kind="stable")

@@ -209,11 +209,7 @@ def _region(group: Group, whole: Cell, origin: Shift) -> Region:
         )
         for x, y in group.region
     ]
-    lapped = [
-        not mirror and (group.kind == Kind.HEXAGONAL or (p[0] != q[0] and p[1] != q[1]))
-        for (p, q), mirror in zip(group.edges(), group.mirrored_edges(), strict=True)
-    ]
-    return Region(tuple(corners), tuple(lapped))
+    return Region(tuple(corners), tuple(group.mirrored_edges()))
 
 
 def _with_region(group: Group, cell: Cell) -> Group:

@@ -240,7 +240,7 @@ def _strokes(torus: Torus, pile: Pile, number: int, lines: Geometries) -> Lines:
     if not len(above.sheet):
         return strokes
     bodies, _ = weld(torus.stock, _wrapped(torus, above).copies)
-    return torus.cut_lines(strokes, torus.stock.geometries(bodies), ink.name)
+    return torus.cut_lines(strokes, torus.stock.geometries(bodies), ink.name, pile.tolerance * STEPS_PER_MM)
 
 
 def _merged(stock: Stock, drawn: Laid, ink_of: Index, inks: Sequence[Ink]) -> Laid:

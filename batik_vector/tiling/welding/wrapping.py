@@ -85,9 +85,13 @@ class Torus:
         self._ends.setdefault(ink, set()).update(own_ends(pieces, self.cell))
         return clip_lines(pieces, names, self.window)
 
-    def cut_lines(self, lines: Lines, cutters: Geometries, ink: str) -> Lines:
-        """Cut lines by cutters that do not overlap; one that is cut off up to the seam ends there."""
-        cut = _cut_lines(lines, cutters)
+    def cut_lines(self, lines: Lines, cutters: Geometries, ink: str, crumb: float) -> Lines:
+        """Cut lines by cutters that do not overlap; one that is cut off up to the seam ends there.
+
+        No pieces as short as ``crumb`` (steps) are left: a line that comes out of a gap at a sharp angle, or
+        runs along its border, would leave a dot here and none at its image.
+        """
+        cut = self._cut_lines(lines, cutters, crumb)
         ended = lone_ends(cut[0], self.cell) - lone_ends(lines[0], self.cell)
         if ended:
             torn = [
@@ -97,6 +101,21 @@ class Torus:
             ]
             self._ends[ink] |= {place for place in ended if not _lies_in(place, torn)}
         return cut
+
+    def _cut_lines(self, lines: Lines, cutters: Geometries, crumb: float) -> Lines:
+        marks, names = lines
+        mark, cutter = shapely.STRtree(cutters).query(marks, predicate="intersects")
+        order = np.lexsort([cutter, mark])
+        rows, number = np.unique(mark[order], return_inverse=True)
+        if not len(rows):
+            return lines
+        away = np.asarray(shapely.multipolygons(cutters[cutter[order]], indices=number), dtype=object)
+        pieces, of = lines_of(overlay.less(marks[rows], away), names[rows])
+        # What reaches the seam goes on beyond it, and may be longer than it seems.
+        kept = (shapely.length(pieces) > crumb) | ~shapely.contains_properly(self.window.box, pieces)
+        whole = np.ones(len(marks), bool)
+        whole[rows] = False
+        return np.concatenate([marks[whole], pieces[kept]]), np.concatenate([names[whole], of[kept]])
 
     def record_ends(self, ink: str, lines: Geometries) -> None:
         """Note where lines end on the seam on purpose, as borders of no length."""
@@ -148,18 +167,3 @@ class Torus:
 def _lies_in(place: tuple[int, int], stretches: Sequence[tuple[int, int, int]]) -> bool:
     """Whether a place on the seam lies within one of its stretches, given as (axis, from, to)."""
     return any(place[axis] == 0 and low < place[1 - axis] < high for axis, low, high in stretches)
-
-
-def _cut_lines(lines: Lines, cutters: Geometries) -> Lines:
-    """Cut lines by cutters that do not overlap."""
-    marks, names = lines
-    mark, cutter = shapely.STRtree(cutters).query(marks, predicate="intersects")
-    order = np.lexsort([cutter, mark])
-    rows, number = np.unique(mark[order], return_inverse=True)
-    if not len(rows):
-        return lines
-    away = np.asarray(shapely.multipolygons(cutters[cutter[order]], indices=number), dtype=object)
-    pieces, of = lines_of(overlay.less(marks[rows], away), names[rows])
-    whole = np.ones(len(marks), bool)
-    whole[rows] = False
-    return np.concatenate([marks[whole], pieces]), np.concatenate([names[whole], of])

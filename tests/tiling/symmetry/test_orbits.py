@@ -85,10 +85,15 @@ def test_what_has_no_symmetry_is_left_alone() -> None:
     assert TRIVIAL.mirrored(marks) is marks
 
 
-def test_a_region_laps_over_the_edges_that_ask_for_it_only() -> None:
+def test_a_region_laps_over_edges_that_come_to_run_aslant_only() -> None:
     corners = ((0.0, 0.0), (100.0, 0.0), (50.0, 80.0))
-    assert Region(corners, (False,) * 3).shape.equals(shapely.Polygon(corners))
-    lapped = Region(corners, (False, True, True)).shape
+    region = Region(corners, (False, False, True))
+    assert region.lapped(IDENTITY) == (False, True, False)
+    # Turned, the first edge runs aslant too; a mirror is never lapped over.
+    assert region.lapped(Affine.turn(60)) == (True, True, False)
+    assert region.lapped(Affine.turn(90)) == (False, True, False)
+    assert region.shape((False,) * 3).equals(shapely.Polygon(corners))
+    lapped = region.shape((False, True, True))
     assert lapped.bounds[1] == pytest.approx(0, abs=1e-9)
     for p, q in ((corners[1], corners[2]), (corners[2], corners[0])):
         middle = shapely.Point((p[0] + q[0]) / 2, (p[1] + q[1]) / 2)

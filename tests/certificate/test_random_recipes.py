@@ -1,0 +1,48 @@
+"""Everyday recipes of all repeats pass: no strip along a seam, no crumb of a line that hides a symmetry."""
+
+from __future__ import annotations
+
+import pytest
+
+from batik_vector import compile_recipe
+from batik_vector.certificate import certify
+from batik_vector.command.checks import _asked
+from batik_vector.errors import RecipeError
+from batik_vector.recipe.loading import read_recipe
+from tests.random_recipes import recipe_text
+from tests.thorough import examples, long
+from tests.tiling.test_seamless import NO_TILE
+
+STRIPS = (324, 844, 1182)
+"""Marks cut to a region whose edge lies on the seam: a lap over it stood there as a strip of ink."""
+
+CRUMBS = (246, 1028, 1758)
+"""Lines of which a gap left a few micrometres at some images only."""
+
+MORE = (431, 639, 1133, 1238, 1702, 768, 1025, 1206, 1405, 1654)
+"""More of both kinds, line ends at sharp angles, and pages covered all over."""
+
+SPREAD = range(7, 2000, 47)
+
+
+def passes(number: int) -> None:
+    recipe = read_recipe(recipe_text(number))
+    try:
+        artwork = compile_recipe(recipe)
+    except RecipeError as error:
+        # Nothing may be left to draw, or a toss find no room.
+        if any(words in str(error) for words in NO_TILE):
+            pytest.skip(str(error))
+        raise
+    assert certify(artwork, asked=_asked(recipe)).faults == ()
+
+
+@pytest.mark.parametrize("number", [*STRIPS, *CRUMBS])
+def test_strips_and_crumbs_are_no_longer_left(number: int) -> None:
+    passes(number)
+
+
+@long
+@pytest.mark.parametrize("number", [*MORE, *SPREAD][: examples(1, 60)])
+def test_everyday_recipes_pass(number: int) -> None:
+    passes(number)
