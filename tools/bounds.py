@@ -128,7 +128,7 @@ def _place_of(data: Tables, motif: str) -> Tables:
 
 
 def _part(name: str) -> Put:
-    return lambda data: _placed(data, "flower").setdefault(name, {})  # type: ignore[no-any-return]
+    return lambda data: _placed(data, "flower").setdefault(name, {})
 
 
 def _element(data: Tables) -> Tables:
@@ -353,7 +353,7 @@ def _compile(each: Try, pipe: int, seconds: float, gigabytes: float) -> None:
         told = f"refused {error}"
     except MemoryError:
         told = "no memory"
-    except BaseException as error:  # noqa: BLE001
+    except BaseException as error:
         told = f"crashed {type(error).__name__}: {error}"
     finally:
         os.write(pipe, told.encode()[:4000])
@@ -433,7 +433,7 @@ def _warm() -> None:
     import batik_vector.tiling.tossing.toss  # noqa: F401
 
     with contextlib.suppress(ImportError):
-        import cairosvg  # type: ignore[import-untyped]  # noqa: F401
+        import cairosvg  # noqa: F401
 
 
 def _line(each: Try, outcome: Outcome) -> str:
