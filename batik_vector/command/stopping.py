@@ -1,7 +1,7 @@
 """Ctrl-C and SIGTERM, heard at once whatever the program is at.
 
-Python lets a handler run between two steps of its own code, and an overlay of GEOS is one step, which may take
-minutes. So a thread listens too: the system writes each signal into a pipe that it reads, and where the
+Python lets a handler run between two steps of its own code, and an overlay of GEOS is one step, which may
+take minutes. So a thread listens too: the system writes each signal into a pipe that it reads, and where the
 handler has not ended the process in ``GRACE`` seconds the thread does. GEOS, NumPy and cairo let threads run
 while they work.
 """

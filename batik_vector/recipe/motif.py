@@ -16,7 +16,7 @@ from typing import Annotated, TypeAlias
 import numpy as np
 import shapely
 
-from batik_vector.errors import GeometryError, unknown_name
+from batik_vector.errors import GeometryError, TooLargeError, unknown_name
 from batik_vector.fields import Between, Length, OneOf, Says, check
 from batik_vector.geometry.curves import CURVES, Circle, Curve, Hypocycloid, Petal, Rose, Superellipse, trace
 from batik_vector.geometry.ifs import distinct
@@ -266,8 +266,20 @@ def draw(motif: Motif, tolerance: float | Callable[[Points], Array]) -> list[Fig
 
     Returns:
         One figure per element, bottom first. Line and region of an element share their vertices.
+
+    Raises:
+        TooLargeError: where a curve crosses itself too often to be filled.
     """
-    return [_draw(element, tolerance) for element in motif.parts()]
+    return [_named(element, tolerance) for element in motif.parts()]
+
+
+def _named(element: Element, tolerance: float | Callable[[Points], Array]) -> Figure:
+    try:
+        return _draw(element, tolerance)
+    except TooLargeError as error:
+        known = f'element "{element.name}"' if element.name else "an element without a name"
+        contours = f", contours = {element.contours}" if element.contours > 1 else ""
+        raise TooLargeError(f"{known} ({type(element.curve).__name__.lower()}{contours}): {error}") from None
 
 
 def _draw(element: Element, tolerance: float | Callable[[Points], Array]) -> Figure:

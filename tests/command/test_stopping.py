@@ -60,7 +60,8 @@ def test_a_signal_ends_the_command_whatever_it_is_at(
         text=True,
     ) as run:
         try:
-            assert run.stdout is not None and run.stdout.readline() == "begun\n"
+            assert run.stdout is not None
+            assert run.stdout.readline() == "begun\n"
             run.send_signal(number)
             _, told = run.communicate(timeout=60)
         finally:
