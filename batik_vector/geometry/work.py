@@ -22,8 +22,9 @@ from batik_vector.geometry.sampling import Array, Geometries, Indices
 LIMIT = 1_000_000.0
 """What one compilation may do: a union of as many vertices takes about ten seconds."""
 
-PER_CROSSING = 4.0
-"""What a crossing costs, in vertices that go through a union."""
+PER_CROSSING, PER_SELF_CROSSING = 1.0, 4.0
+"""What a crossing of two areas, and one of lines, costs in vertices that go through a union: areas that lie
+over one another dissolve as they are united, and lines do not."""
 
 MAX_PAIRS = 3_000_000
 """Pairs of shapes whose bounds meet: they are held in memory all at once."""
@@ -50,19 +51,20 @@ def account() -> Iterator[None]:
         _spent.reset(token)
 
 
-def spend(vertices: float, crossings: float = 0.0) -> None:
+def spend(vertices: float, crossings: float = 0.0, each: float = PER_CROSSING) -> None:
     """Take up work that is about to be done.
 
     Args:
         vertices: that go through an overlay.
         crossings: of their edges.
+        each: what a crossing costs, in vertices.
 
     Raises:
         TooLargeError: where all work comes to more than ``LIMIT``, with the counts.
     """
     spent = _spent.get()
     spent = [0.0] if spent is None else spent
-    spent[0] += vertices + PER_CROSSING * crossings
+    spent[0] += vertices + each * crossings
     if spent[0] > LIMIT:
         crossing = f" that cross about {_about(crossings)} times" if crossings >= 1 else ""
         raise TooLargeError(
@@ -77,15 +79,17 @@ def spend_on_shapes(groups: Sequence[Geometries]) -> None:
     Raises:
         TooLargeError: as :func:`spend`.
     """
-    sizes = np.array([shapely.get_num_coordinates(group).sum() for group in groups], float)
-    total = float(sizes.sum())
+    areas = np.concatenate([np.empty(0, dtype=object), *groups])
+    group = np.repeat(np.arange(len(groups)), [len(each) for each in groups])
+    vertices = shapely.get_num_coordinates(areas)
+    total = float(vertices.sum())
     if total < SMALL:
         spend(total)
         return
     # Of many groups some stand for all.
-    asked = _some(len(groups), SAMPLED // 8)
-    found = sum(_crossings(groups[number]) for number in asked.tolist())
-    spend(total, found * total / max(float(sizes[asked].sum()), 1.0))
+    asked = np.isin(group, _some(len(groups), SAMPLED // 8))
+    share = total / max(float(vertices[asked].sum()), 1.0)
+    spend(total, _crossings(areas[asked], group[asked]) * share)
 
 
 def spend_on_lines(lines: Geometries, *, each: bool = False) -> None:
@@ -95,7 +99,7 @@ def spend_on_lines(lines: Geometries, *, each: bool = False) -> None:
         TooLargeError: as :func:`spend`.
     """
     count = int(shapely.get_num_coordinates(lines).sum())
-    spend(count, self_crossings(lines, each=each) if count > FEW else 0.0)
+    spend(count, self_crossings(lines, each=each) if count > FEW else 0.0, PER_SELF_CROSSING)
 
 
 def refuse_pairs(tree: shapely.STRtree, boxes: Geometries) -> None:
@@ -148,20 +152,23 @@ def _side(p: Array, q: Array, r: Array) -> Array:
     return found
 
 
-def _crossings(areas: Geometries) -> float:
-    """Return about how often the outlines of areas cross one another."""
+def _crossings(areas: Geometries, group: Indices) -> float:
+    """Return about how often the outlines of areas cross those of others in their group."""
     asked = _some(len(areas), SAMPLED)
     mine, other = shapely.STRtree(areas).query(areas[asked])
     mine = asked[mine]
-    mine, other = mine[mine != other], other[mine != other]
+    met = (mine != other) & (group[mine] == group[other])
+    mine, other = mine[met], other[met]
     if not len(mine):
         return 0.0
     vertices = shapely.get_num_coordinates(areas)
     each = float((vertices[mine] + vertices[other]).mean())
     pairs = _some(len(mine), min(4 * SAMPLED, max(4, int(SAMPLED_VERTICES / each))))
-    met = shapely.intersection(shapely.boundary(areas[mine[pairs]]), shapely.boundary(areas[other[pairs]]))
+    crossed = shapely.intersection(
+        shapely.boundary(areas[mine[pairs]]), shapely.boundary(areas[other[pairs]])
+    )
     share = len(mine) / len(pairs) * len(areas) / len(asked) / 2
-    return float(shapely.get_num_coordinates(met).sum()) * share
+    return float(shapely.get_num_coordinates(crossed).sum()) * share
 
 
 def _some(count: int, most: int) -> Indices:
