@@ -8,11 +8,11 @@ while they work.
 
 from __future__ import annotations
 
+import _thread
 import contextlib
 import os
 import signal
 import sys
-import threading
 import time
 from collections.abc import Callable
 from typing import NoReturn
@@ -42,7 +42,8 @@ def listen(say: Callable[[int], None]) -> None:
     heard, told = os.pipe()
     os.set_blocking(told, False)
     signal.set_wakeup_fd(told, warn_on_full_buffer=False)
-    threading.Thread(target=_listen, args=(heard, say), daemon=True).start()
+    # Threads that ``threading`` counts may import what others are importing; this one imports nothing.
+    _thread.start_new_thread(_listen, (heard, say))
 
 
 def _listen(heard: int, say: Callable[[int], None]) -> None:

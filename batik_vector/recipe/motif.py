@@ -18,6 +18,7 @@ import shapely
 
 from batik_vector.errors import GeometryError, TooLargeError, unknown_name
 from batik_vector.fields import Between, Length, OneOf, Says, check
+from batik_vector.geometry import work
 from batik_vector.geometry.curves import CURVES, Circle, Curve, Hypocycloid, Petal, Rose, Superellipse, trace
 from batik_vector.geometry.ifs import distinct
 from batik_vector.geometry.maps.affine import IDENTITY, Affine
@@ -353,9 +354,13 @@ def _bands(nested: list[Geometries]) -> Geometries:
     """Return every other band between nested contours, the outermost filled."""
     if len(nested) == 1:
         return nested[0]
-    total = shapely.union_all(nested[0])
-    for inner in nested[1:]:
-        total = shapely.symmetric_difference(total, shapely.union_all(inner))
+    # Two by two, and these two by two again: added up one after another, each would be overlaid with all before.
+    total = np.array([shapely.union_all(part) for part in nested], dtype=object)
+    while len(total) > 1:
+        pairs = len(total) // 2
+        work.spend(float(shapely.get_num_coordinates(total).sum()))
+        joined = shapely.symmetric_difference(total[: 2 * pairs : 2], total[1 : 2 * pairs : 2])
+        total = np.concatenate([joined, total[2 * pairs :]])
     # Where bands meet in a point a hair of line may be left.
     parts = shapely.get_parts(total)
     return oriented(parts[shapely.get_type_id(parts) == shapely.GeometryType.POLYGON])
