@@ -20,6 +20,8 @@ from batik_vector.errors import Fault, RecipeError, TooLargeError, blame
 from batik_vector.fields import Instead, given
 from batik_vector.geometry import work
 from batik_vector.recipe.model import Recipe
+from batik_vector.recipe.motif import most_contours
+from batik_vector.recipe.references import dotted
 from batik_vector.tiling.torus import seams
 from batik_vector.tiling.torus.torus import to_step_grid
 from batik_vector.tiling.welding.stack import assemble
@@ -66,7 +68,7 @@ def _compiled(recipe: Recipe, tell: Progress) -> Artwork:
     tell("cutting the tile")
     cell = recipe.tiling.cell()
     lattice = recipe.tiling.repeating().lattice
-    with blame("tile"), _laid_to(before):
+    with blame("tile"), _laid_to(before, recipe):
         layers, borders = assemble(sheets, list(inks.values()), cell, lattice, recipe.tolerance)
     if not layers:
         raise RecipeError("nothing is left to draw: every mark is covered or cut away")
@@ -74,14 +76,19 @@ def _compiled(recipe: Recipe, tell: Progress) -> Artwork:
 
 
 @contextmanager
-def _laid_to(placed: Sequence[Placed]) -> Iterator[None]:
-    """Name the placement that gives the most, where the marks of all are too much."""
+def _laid_to(placed: Sequence[Placed], recipe: Recipe) -> Iterator[None]:
+    """Name the placement that gives the most, and its contours, where the marks of all are too much."""
     try:
         yield
     except TooLargeError as error:
         most = max(range(len(placed)), key=lambda number: placed[number].vertices)
         share = f"{placed[most].vertices:,} of {sum(each.vertices for each in placed):,}"
-        raise TooLargeError(f"{error}; the most vertices, {share}, are those of place[{most}]") from error
+        text = f"{error}; the most vertices, {share}, are those of place[{most}]"
+        dense = [(name, *most_contours(recipe.motif[name])) for name in recipe.place[most].motifs]
+        name, key, contours = max(dense, key=lambda each: each[2])
+        if contours > 1:
+            text += f", with {dotted(('motif', name))}.{key} = {contours}"
+        raise TooLargeError(text) from error
 
 
 def _facts(recipe: Recipe, placed: Sequence[Placed]) -> dict[str, Any]:

@@ -16,7 +16,7 @@ from typing import Annotated, TypeAlias
 import numpy as np
 import shapely
 
-from batik_vector.errors import GeometryError, TooLargeError, unknown_name
+from batik_vector.errors import GeometryError, TooLargeError, shortened, unknown_name
 from batik_vector.fields import Between, Length, OneOf, Says, check
 from batik_vector.geometry import work
 from batik_vector.geometry.curves import CURVES, Circle, Curve, Hypocycloid, Petal, Rose, Superellipse, trace
@@ -249,6 +249,15 @@ MOTIFS: dict[str, type] = {"flower": Flower, "rosette": Rosette}
 Motif: TypeAlias = Flower | Rosette
 
 
+def most_contours(motif: Motif) -> tuple[str, int]:
+    """Return the key in a motif's table that asks for the most contours, and how many."""
+    if isinstance(motif, Flower):
+        asked = {f"{part.name}.contours": part.contours for part in motif.parts()}
+    else:
+        asked = {f"elements[{number}].contours": part.contours for number, part in enumerate(motif.parts())}
+    return max(asked.items(), key=lambda each: each[1])
+
+
 @frozen
 class Figure:
     """An element as geometry, in motif units: ``areas`` filled, ``lines`` its centre lines."""
@@ -278,7 +287,7 @@ def _named(element: Element, tolerance: float | Callable[[Points], Array]) -> Fi
     try:
         return _draw(element, tolerance)
     except TooLargeError as error:
-        known = f'element "{element.name}"' if element.name else "an element without a name"
+        known = f'element "{shortened(element.name)}"' if element.name else "an element without a name"
         contours = f", contours = {element.contours}" if element.contours > 1 else ""
         raise TooLargeError(f"{known} ({type(element.curve).__name__.lower()}{contours}): {error}") from None
 
@@ -354,7 +363,7 @@ def _bands(nested: list[Geometries]) -> Geometries:
     """Return every other band between nested contours, the outermost filled."""
     if len(nested) == 1:
         return nested[0]
-    # Two by two, and these two by two again: added up one after another, each would be overlaid with all before.
+    # Two by two, and these two by two again: one after another, each would be overlaid with all before it.
     total = np.array([shapely.union_all(part) for part in nested], dtype=object)
     while len(total) > 1:
         pairs = len(total) // 2
