@@ -91,11 +91,19 @@ class MissingLibraryError(ExportError):
 
 def unknown_name(name: str, known: Sequence[str], what: str = "name") -> str:
     """Return ``unknown WHAT "NAME"`` with the nearest known name, or all of them when none is near."""
-    written = name if len(name) <= 60 else name[:60] + "…"
     near = nearest(name, known)
     if near is not None:
-        return f'unknown {what} "{written}": did you mean "{near}"?'
-    return f'unknown {what} "{written}": expected one of {", ".join(sorted(known))}'
+        return f'unknown {what} "{shortened(name)}": did you mean "{shortened(near)}"?'
+    return f'unknown {what} "{shortened(name)}": expected one of {", ".join(map(shortened, sorted(known)))}'
+
+
+LONGEST = 80
+"""Characters of a text that a message echoes: those of the longest name."""
+
+
+def shortened(text: str) -> str:
+    """Return as much of a text as a message has room for."""
+    return text if len(text) <= LONGEST else text[:60] + "…"
 
 
 def nearest(name: str, known: Sequence[str]) -> str | None:

@@ -49,7 +49,7 @@ WINGS: dict[str, Floors] = {
     "tiling": _floors("layouts", "torus", "welding tossing", "symmetry cloth borders"),
     "geometry": _floors(
         "sampling outlines edge_snap",
-        "known",
+        "known work",
         "ragged curves regions stretches inside",
         "bezier continuations maps",
         "coincidence",

@@ -11,11 +11,12 @@ import signal
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from batik_vector._version import __version__
+from batik_vector.command.stopping import EXITS, end_on_sigterm, listen
 from batik_vector.errors import BatikError, RecipeError, unknown_name
 
 if TYPE_CHECKING:
@@ -25,12 +26,17 @@ FORMATS = ("svg", "pdf", "dxf", "png")
 """As in :data:`batik_vector.export.FORMATS`, which a test compares."""
 KINDS = ("flower", "four-square", "half-drop", "rosette")
 """As in :data:`batik_vector.command.starters.STARTERS`, likewise."""
-SIGPIPE_EXIT, INTERRUPT_EXIT, TERMINATED_EXIT = 141, 130, 143
+SIGPIPE_EXIT = 141
 
 
 def _complain(words: str) -> None:
     for line in words.splitlines():
         click.echo(f"batik-vector: error: {line}", err=True)
+
+
+def _interrupted(number: int) -> None:
+    if number == signal.SIGINT:
+        _complain("interrupted")
 
 
 class _Commands(click.Group):
@@ -45,8 +51,8 @@ class _Commands(click.Group):
             _complain(str(error))
             ctx.exit(error.exit_code)
         except KeyboardInterrupt:
-            _complain("interrupted")
-            ctx.exit(INTERRUPT_EXIT)
+            _interrupted(signal.SIGINT)
+            ctx.exit(EXITS[signal.SIGINT])
         except BrokenPipeError:
             # Whoever read has gone; what is left in the buffer must not be flushed into the pipe.
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
@@ -304,11 +310,6 @@ def schema_command() -> None:
     click.echo(json.dumps(schema(), indent=2))
 
 
-def _terminated(_number: int, _frame: object) -> NoReturn:
-    # As an exception it lets half-written files be cleared away.
-    raise SystemExit(TERMINATED_EXIT)
-
-
 @contextmanager
 def _brief() -> Iterator[None]:
     """Spare a run of the command what only long ones profit from.
@@ -335,7 +336,8 @@ def _ready() -> None:
 
 def main() -> None:
     """Run the command."""
-    signal.signal(signal.SIGTERM, _terminated)
+    end_on_sigterm()
+    listen(_interrupted)
     with _brief():
         cli(prog_name="batik-vector")
 

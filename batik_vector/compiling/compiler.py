@@ -6,7 +6,8 @@ assembled on the torus; what leaves is an :class:`~batik_vector.artwork.Artwork`
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import asdict, replace
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -15,9 +16,12 @@ import shapely
 from batik_vector._version import __version__
 from batik_vector.artwork import Artwork, Cell, DropAxis, Ink, Provenance, violations
 from batik_vector.compiling.placements import Placed, place
-from batik_vector.errors import Fault, RecipeError, blame
+from batik_vector.errors import Fault, RecipeError, TooLargeError, blame
 from batik_vector.fields import Instead, given
+from batik_vector.geometry import work
 from batik_vector.recipe.model import Recipe
+from batik_vector.recipe.motif import most_contours
+from batik_vector.recipe.references import dotted
 from batik_vector.tiling.torus import seams
 from batik_vector.tiling.torus.torus import to_step_grid
 from batik_vector.tiling.welding.stack import assemble
@@ -43,7 +47,11 @@ def compile_recipe(recipe: Recipe, *, progress: Progress | None = None) -> Artwo
         SeamError: where no clean seam is found.
     """
     given(recipe, Annotated[Recipe, READ], "recipe")
-    tell = progress or (lambda stage: None)
+    with work.account():
+        return _compiled(recipe, progress or (lambda stage: None))
+
+
+def _compiled(recipe: Recipe, tell: Progress) -> Artwork:
     inks = {name: Ink(name, spec.colour, spec.width, spec.overlap) for name, spec in recipe.ink.items()}
     unit = recipe.tiling.unit()
     sheets = []
@@ -59,12 +67,28 @@ def compile_recipe(recipe: Recipe, *, progress: Progress | None = None) -> Artwo
         spent += placed.vertices
     tell("cutting the tile")
     cell = recipe.tiling.cell()
-    with blame("tile"):
-        lattice = recipe.tiling.repeating().lattice
+    lattice = recipe.tiling.repeating().lattice
+    with blame("tile"), _laid_to(before, recipe):
         layers, borders = assemble(sheets, list(inks.values()), cell, lattice, recipe.tolerance)
     if not layers:
         raise RecipeError("nothing is left to draw: every mark is covered or cut away")
     return replace(_blank(recipe, cell), layers=layers, borders=borders, facts=_facts(recipe, before))
+
+
+@contextmanager
+def _laid_to(placed: Sequence[Placed], recipe: Recipe) -> Iterator[None]:
+    """Name the placement that gives the most, and its contours, where the marks of all are too much."""
+    try:
+        yield
+    except TooLargeError as error:
+        most = max(range(len(placed)), key=lambda number: placed[number].vertices)
+        share = f"{placed[most].vertices:,} of {sum(each.vertices for each in placed):,}"
+        text = f"{error}; the most vertices, {share}, are those of place[{most}]"
+        dense = [(name, *most_contours(recipe.motif[name])) for name in recipe.place[most].motifs]
+        name, key, contours = max(dense, key=lambda each: each[2])
+        if contours > 1:
+            text += f", with {dotted(('motif', name))}.{key} = {contours}"
+        raise TooLargeError(text) from error
 
 
 def _facts(recipe: Recipe, placed: Sequence[Placed]) -> dict[str, Any]:

@@ -1,17 +1,22 @@
 """Files are written whole or not at all.
 
-Every file goes to a hidden neighbour of its place first, is forced to the disk, and only then takes the
-place, in one step. Several files that belong together are all written before the first is moved; where a
-move fails, those before it are undone. Whatever stops the work, Ctrl-C included, what was there before is
-there afterwards, and nothing beside it.
+Every file is written beside its place first, is forced to the disk, and only then takes the place, in one
+step. Several files that belong together are all written before the first is moved; where a move fails, those
+before it are undone. Whatever stops the work, Ctrl-C included, what was there before is there afterwards, and
+nothing beside it.
+
+Where the system can (Linux, on all but a few file systems) a file has no name until it is whole, so that
+nothing stays of it even where the process is killed; elsewhere it is a hidden neighbour of its place.
 """
 
 from __future__ import annotations
 
 import contextlib
+import errno
 import io
 import os
 import stat
+import threading
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Any, BinaryIO, TypeAlias
@@ -22,6 +27,12 @@ Content: TypeAlias = bytes | Callable[[BinaryIO], object]
 """What goes into a file: its bytes, or what writes them into a sink, which may be seeked."""
 BUFFER = 1 << 20
 """Bytes gathered before the system is asked to write them."""
+OPEN_HANDLES = "/proc/self/fd"
+"""Where Linux lists the open files of a process, those without a name too."""
+CAN_BE_NAMELESS = hasattr(os, "O_TMPFILE") and os.link in os.supports_dir_fd and os.path.isdir(OPEN_HANDLES)
+CHMOD_TAKES_HANDLES = os.chmod in os.supports_fd
+NEEDS_A_NAME = (errno.EOPNOTSUPP, errno.EISDIR, errno.EINVAL, errno.ENOENT)
+"""How a system says that a file needs a name."""
 
 
 def write_whole(path: str | os.PathLike[str], data: Content) -> None:
@@ -46,17 +57,40 @@ def write_all_whole(files: Iterable[tuple[str | os.PathLike[str], Content]]) -> 
     if len(places) < len(work):
         raise ExportError("two outputs would have the same path")
     batch = _Batch()
+    _at_work.append(batch)
     try:
         for path, data in work:
             with _named(path):
                 batch.write(path, data)
-        for path, _ in work:
-            with _named(path):
-                batch.place(path)
+        with _placing:
+            for path, _ in work:
+                with _named(path):
+                    batch.place(path)
     except BaseException:
-        batch.undo()
+        with _placing:
+            batch.undo()
         raise
-    batch.done()
+    else:
+        batch.done()
+    finally:
+        _at_work.remove(batch)
+
+
+_at_work: list[_Batch] = []
+_placing = threading.RLock()
+"""Held while files take their places, which is never long."""
+
+
+@contextlib.contextmanager
+def abandoned() -> Iterator[None]:
+    """Clear away what is half written, for a process that is to end inside while another thread works on.
+
+    Files that are taking their places do so first, all of them.
+    """
+    with _placing:
+        for batch in _at_work:
+            batch.done()
+        yield
 
 
 @contextlib.contextmanager
@@ -77,28 +111,35 @@ class _Batch:
 
     def __init__(self) -> None:
         self._temps: dict[Path, Path] = {}
+        self._handles: dict[Path, int] = {}
         self._backups: dict[Path, Path] = {}
         self._fresh: set[Path] = set()
 
     def write(self, path: Path, data: Content) -> None:
-        """Write the neighbour of a path."""
+        """Write a file beside its path, without a name where that can be."""
         mode = _mode(path)
         temp = self._temps[path] = _neighbour(path)
-        handle = os.open(temp, os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0), 0o666)
+        nameless = _opened_nameless(path)
+        handle = _opened(temp) if nameless is None else nameless
         try:
             if isinstance(data, bytes):
                 _write(handle, data)
             else:
                 with io.BufferedWriter(_Raw(handle), BUFFER) as sink:
                     data(sink)
+            if mode is not None:
+                os.chmod(handle if CHMOD_TAKES_HANDLES else temp, mode)
             os.fsync(handle)
+            if nameless is not None:
+                self._handles[path] = handle
         finally:
-            os.close(handle)
-        if mode is not None:
-            os.chmod(temp, mode)
+            if path not in self._handles:
+                os.close(handle)
 
     def place(self, path: Path) -> None:
-        """Move the neighbour to its place, keeping what was there until all is done."""
+        """Move what was written to its place, keeping what was there until all is done."""
+        if path in self._handles:
+            _give_name(self._handles[path], self._temps[path])
         if _mode(path) is None:
             self._fresh.add(path)
         elif len(self._temps) > 1:
@@ -121,10 +162,13 @@ class _Batch:
         self.done()
 
     def done(self) -> None:
-        """Remove every neighbour that is left."""
+        """Remove every neighbour that is left, and let go of what has no name."""
         for leftover in (*self._temps.values(), *self._backups.values()):
             with contextlib.suppress(OSError):
                 leftover.unlink()
+        while self._handles:
+            with contextlib.suppress(OSError):
+                os.close(self._handles.popitem()[1])
 
 
 class _Raw(io.RawIOBase):
@@ -144,6 +188,47 @@ class _Raw(io.RawIOBase):
 
     def write(self, data: Any) -> int:
         return os.write(self._handle, data)
+
+
+def _opened(path: Path) -> int:
+    """Open a new file."""
+    return os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0), 0o666)
+
+
+def _opened_nameless(path: Path) -> int | None:
+    """Open a file without a name on the file system of a path; None where it could never be given one."""
+    if not CAN_BE_NAMELESS:
+        return None
+    try:
+        return os.open(path.parent, os.O_RDWR | os.O_TMPFILE, 0o666)
+    except OSError as error:
+        if error.errno in NEEDS_A_NAME:
+            return None
+        raise
+
+
+def _give_name(handle: int, path: Path) -> None:
+    """Name a file that has none (open(2), O_TMPFILE); where there are no links, a copy of it."""
+    listed = os.open(OPEN_HANDLES, os.O_RDONLY)
+    try:
+        os.link(str(handle), path, src_dir_fd=listed, follow_symlinks=True)
+    except OSError:
+        _copy(handle, path)
+    finally:
+        os.close(listed)
+
+
+def _copy(handle: int, path: Path) -> None:
+    """Write a new file that holds what an open one does, and may what that may."""
+    copy = _opened(path)
+    try:
+        os.lseek(handle, 0, os.SEEK_SET)
+        while part := os.read(handle, BUFFER):
+            _write(copy, part)
+        os.chmod(copy, stat.S_IMODE(os.fstat(handle).st_mode))
+        os.fsync(copy)
+    finally:
+        os.close(copy)
 
 
 def _neighbour(path: Path) -> Path:

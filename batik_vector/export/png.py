@@ -65,7 +65,8 @@ def pixel_size(page: Page, dpi: float) -> tuple[int, int]:
         most = min(dpi * (MAX_PIXELS / (width * height)) ** 0.5, dpi * MAX_SIDE / max(width, height))
         raise UnsupportedByFormatError(
             f"a preview at {dpi:g} dpi would have {width:,} × {height:,} pixels "
-            f"({width * height * 4 / 1e9:.1f} GB): {int(most)} dpi is the most for this cell"
+            f"({width * height * 4 / 1e9:.1f} GB): "
+            + (f"{int(most)} dpi is the most for this cell" if most >= 1 else "show less cloth, or the tile")
         )
     return width, height
 

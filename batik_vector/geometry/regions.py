@@ -9,7 +9,11 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from batik_vector.geometry import work
 from batik_vector.geometry.sampling import Geometries, Indices, Points
+
+LEVEL = 64
+"""Points whose winding numbers are counted at once."""
 
 
 class FillRule(enum.StrEnum):
@@ -39,11 +43,16 @@ def settle(rings: Sequence[Points], rule: FillRule = FillRule.NONZERO) -> Geomet
 
     Returns:
         The polygons, as an array; they touch one another in points at most.
+
+    Raises:
+        TooLargeError: where they cross too often.
     """
     polygons = np.array([shapely.Polygon(ring) for ring in rings], dtype=object)
     if shapely.is_valid(polygons).all() and not _interfere(polygons):
         return oriented(polygons)
-    faces = _faces([shapely.LineString(ring) for ring in rings])
+    lines = np.array([shapely.LineString(ring) for ring in rings], dtype=object)
+    work.spend_on_lines(lines)
+    faces = _faces(lines)
     if rule == FillRule.OUTLINE:
         inside = faces
     else:
@@ -55,7 +64,7 @@ def settle(rings: Sequence[Points], rule: FillRule = FillRule.NONZERO) -> Geomet
     return oriented(merged)
 
 
-def _faces(lines: Sequence[shapely.LineString]) -> Geometries:
+def _faces(lines: Geometries) -> Geometries:
     """Return the faces that closed lines divide the plane into, but for the outermost.
 
     Where edges run over one another but for the last bits of their floats, GEOS may not find all crossings,
@@ -144,15 +153,19 @@ def winding_numbers(rings: Sequence[Points], at: Points) -> Indices:
         rings: closed, each of shape (n, 2).
         at: shape (k, 2), none of them on a ring.
     """
+    start = np.concatenate([ring[:-1] for ring in rings])
+    end = np.concatenate([ring[1:] for ring in rings])
+    low, high = np.minimum(start[:, 1], end[:, 1]), np.maximum(start[:, 1], end[:, 1])
     total = np.zeros(len(at), np.intp)
-    for ring in rings:
-        rows = max(1, 4_000_000 // len(ring))
-        for begin in range(0, len(at), rows):
-            part = slice(begin, begin + rows)
-            x, y = at[part, :1], at[part, 1:]
-            x0, y0, x1, y1 = ring[:-1, 0], ring[:-1, 1], ring[1:, 0], ring[1:, 1]
-            side = (x1 - x0) * (y - y0) - (x - x0) * (y1 - y0)
-            up = (y0 <= y) & (y1 > y) & (side > 0)
-            down = (y0 > y) & (y1 <= y) & (side < 0)
-            total[part] += up.sum(axis=1) - down.sum(axis=1)
+    # Points of about one height, and of the edges those alone that reach it.
+    order = np.argsort(at[:, 1], kind="stable")
+    for begin in range(0, len(at), LEVEL):
+        part = order[begin : begin + LEVEL]
+        x, y = at[part, :1], at[part, 1:]
+        near = (low <= y[-1]) & (high > y[0])
+        (x0, y0), (x1, y1) = start[near].T, end[near].T
+        side = (x1 - x0) * (y - y0) - (x - x0) * (y1 - y0)
+        up = (y0 <= y) & (y1 > y) & (side > 0)
+        down = (y0 > y) & (y1 <= y) & (side < 0)
+        total[part] = up.sum(axis=1) - down.sum(axis=1)
     return total

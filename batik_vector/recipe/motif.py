@@ -16,8 +16,9 @@ from typing import Annotated, TypeAlias
 import numpy as np
 import shapely
 
-from batik_vector.errors import GeometryError, unknown_name
+from batik_vector.errors import GeometryError, TooLargeError, shortened, unknown_name
 from batik_vector.fields import Between, Length, OneOf, Says, check
+from batik_vector.geometry import work
 from batik_vector.geometry.curves import CURVES, Circle, Curve, Hypocycloid, Petal, Rose, Superellipse, trace
 from batik_vector.geometry.ifs import distinct
 from batik_vector.geometry.maps.affine import IDENTITY, Affine
@@ -248,6 +249,15 @@ MOTIFS: dict[str, type] = {"flower": Flower, "rosette": Rosette}
 Motif: TypeAlias = Flower | Rosette
 
 
+def most_contours(motif: Motif) -> tuple[str, int]:
+    """Return the key in a motif's table that asks for the most contours, and how many."""
+    if isinstance(motif, Flower):
+        asked = {f"{part.name}.contours": part.contours for part in motif.parts()}
+    else:
+        asked = {f"elements[{number}].contours": part.contours for number, part in enumerate(motif.parts())}
+    return max(asked.items(), key=lambda each: each[1])
+
+
 @frozen
 class Figure:
     """An element as geometry, in motif units: ``areas`` filled, ``lines`` its centre lines."""
@@ -266,8 +276,20 @@ def draw(motif: Motif, tolerance: float | Callable[[Points], Array]) -> list[Fig
 
     Returns:
         One figure per element, bottom first. Line and region of an element share their vertices.
+
+    Raises:
+        TooLargeError: where a curve crosses itself too often to be filled.
     """
-    return [_draw(element, tolerance) for element in motif.parts()]
+    return [_named(element, tolerance) for element in motif.parts()]
+
+
+def _named(element: Element, tolerance: float | Callable[[Points], Array]) -> Figure:
+    try:
+        return _draw(element, tolerance)
+    except TooLargeError as error:
+        known = f'element "{shortened(element.name)}"' if element.name else "an element without a name"
+        contours = f", contours = {element.contours}" if element.contours > 1 else ""
+        raise TooLargeError(f"{known} ({type(element.curve).__name__.lower()}{contours}): {error}") from None
 
 
 def _draw(element: Element, tolerance: float | Callable[[Points], Array]) -> Figure:
@@ -341,9 +363,13 @@ def _bands(nested: list[Geometries]) -> Geometries:
     """Return every other band between nested contours, the outermost filled."""
     if len(nested) == 1:
         return nested[0]
-    total = shapely.union_all(nested[0])
-    for inner in nested[1:]:
-        total = shapely.symmetric_difference(total, shapely.union_all(inner))
+    # Two by two, and these two by two again: one after another, each would be overlaid with all before it.
+    total = np.array([shapely.union_all(part) for part in nested], dtype=object)
+    while len(total) > 1:
+        pairs = len(total) // 2
+        work.spend(float(shapely.get_num_coordinates(total).sum()))
+        joined = shapely.symmetric_difference(total[: 2 * pairs : 2], total[1 : 2 * pairs : 2])
+        total = np.concatenate([joined, total[2 * pairs :]])
     # Where bands meet in a point a hair of line may be left.
     parts = shapely.get_parts(total)
     return oriented(parts[shapely.get_type_id(parts) == shapely.GeometryType.POLYGON])

@@ -9,7 +9,7 @@ import dataclasses
 from collections.abc import Iterator
 from typing import Any, TypeAlias
 
-from batik_vector.errors import Fault, unknown_name
+from batik_vector.errors import Fault, shortened, unknown_name
 from batik_vector.values import defaults
 
 Path: TypeAlias = tuple[str | int, ...]
@@ -29,7 +29,7 @@ def dotted(path: Path) -> str:
             text += f"[{part}]"
         else:
             bare = part and _BARE.issuperset(part)
-            text += ("." if text else "") + (part if bare else quoted(part))
+            text += ("." if text else "") + (shortened(part) if bare else quoted(shortened(part)))
     return text
 
 

@@ -11,9 +11,10 @@ from batik_vector import read_recipe
 from batik_vector.artwork import Artwork, Overlap, violations
 from batik_vector.compiling.compiler import compile_recipe, inspect
 from batik_vector.errors import RecipeError
+from batik_vector.geometry import work
 from batik_vector.geometry.curves import Circle, Petal, Polygon, Superellipse
 from batik_vector.recipe.model import InkSpec, Placement, Recipe
-from batik_vector.recipe.motif import Element, Flower, Rosette, Treatment
+from batik_vector.recipe.motif import Core, Element, Flower, Rosette, Treatment
 from batik_vector.tiling.cloth.field import repeated, with_bleed
 from batik_vector.tiling.layouts import Julian, Lattice, Layout, Ring, Single
 from batik_vector.tiling.symmetry.repeats import Cut, TileSpec
@@ -318,3 +319,17 @@ def test_a_field_keeps_what_is_left_of_the_drop() -> None:
     for across, up in [(1, 1), (3, 1), (2, 2), (3, 2)]:
         field = repeated(tile, across, up)
         assert inspect(field)["seam"] == []
+
+
+def test_marks_that_cross_too_often_are_refused_with_the_contours_that_make_them(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(work, "LIMIT", 1000.0)
+    recipe = Recipe(
+        motif={"rose garden": Flower(core=Core(contours=4))},
+        place=(Placement(motif="rose garden", width=80.0),),
+        tile=TileSpec(size=(100.0, 100.0)),
+        ink=WAX,
+    )
+    with pytest.raises(RecipeError, match="contours = 4"):
+        compile_recipe(recipe)

@@ -4,13 +4,15 @@ import errno
 import os
 import stat
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any, BinaryIO
 
 import pytest
 
 from batik_vector.errors import ExportError
-from batik_vector.export.files import write_all_whole, write_whole
+from batik_vector.export import files
+from batik_vector.export.files import BUFFER, write_all_whole, write_whole
 
 
 def inside(folder: Path) -> dict[str, bytes]:
@@ -134,6 +136,61 @@ def test_without_links_files_are_still_written(tmp_path: Path, monkeypatch: pyte
     fail(monkeypatch, "link", OSError(errno.EPERM, "no links"))
     write_all_whole([(tmp_path / "a", b"1"), (tmp_path / "b", b"2")])
     assert inside(tmp_path) == {"a": b"1", "b": b"2"}
+
+
+def without_links(monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(*args: Any, **named: Any) -> None:
+        raise OSError(errno.EPERM, "no links")
+
+    monkeypatch.setattr(os, "link", refuse)
+
+
+def without_nameless_files(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(files, "CAN_BE_NAMELESS", False)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="permissions of POSIX")
+@pytest.mark.parametrize("less", [without_links, without_nameless_files])
+def test_a_system_that_can_do_less_writes_the_same(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, less: Callable[[pytest.MonkeyPatch], None]
+) -> None:
+    (tmp_path / "a").write_bytes(b"before")
+    (tmp_path / "a").chmod(0o604)
+    less(monkeypatch)
+    write_all_whole([(tmp_path / "a", halves), (tmp_path / "b", b"2")])
+    assert inside(tmp_path) == {"a": b"two" + b"end" * 500_000, "b": b"2"}
+    assert stat.S_IMODE((tmp_path / "a").stat().st_mode) == 0o604
+
+
+@pytest.mark.skipif(not files.CAN_BE_NAMELESS, reason="files without names, of Linux")
+def test_a_file_has_no_name_until_all_are_whole(tmp_path: Path) -> None:
+    seen: list[dict[str, bytes]] = []
+
+    def looking(sink: BinaryIO) -> None:
+        sink.write(b"x" * (BUFFER + 1))
+        seen.append(inside(tmp_path))
+
+    write_all_whole([(tmp_path / "a", looking), (tmp_path / "b", looking)])
+    assert seen == [{}, {}]
+    assert sorted(inside(tmp_path)) == ["a", "b"]
+
+
+def test_a_thread_that_ends_the_process_clears_away_what_is_half_written(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    without_nameless_files(monkeypatch)
+    seen: list[int] = []
+
+    def abandon(sink: BinaryIO) -> None:
+        seen.append(len(inside(tmp_path)))
+        with files.abandoned():
+            seen.append(len(inside(tmp_path)))
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        write_whole(tmp_path / "a", abandon)
+    assert seen == [1, 0]
+    assert inside(tmp_path) == {}
 
 
 def test_nothing_is_written_when_one_place_cannot_be(tmp_path: Path) -> None:

@@ -70,3 +70,8 @@ def test_too_many_pixels_are_refused_with_the_estimate() -> None:
         png.pixel_size(vast, most + 2)
     with pytest.raises(ExportError):
         png.pixel_size(Artwork("", Cell(40_000_000, 1_000), ()), 100)
+
+
+def test_a_cloth_too_large_for_one_dpi_is_not_told_that_0_dpi_is_the_most() -> None:
+    with pytest.raises(UnsupportedByFormatError, match=r"GB\): show less cloth, or the tile$"):
+        png.pixel_size(Artwork("", Cell(1_000_000_000, 1_000_000_000), ()), 100)

@@ -9,7 +9,18 @@ import shapely
 from batik_vector.errors import GeometryError
 from batik_vector.geometry.curves import Circle, Hypocycloid, Rose, Spiral, Star, Superellipse, trace
 from batik_vector.geometry.regions import FillRule, settle
-from batik_vector.recipe.motif import Core, Element, Flower, Leaf, Petals, Pistil, Rosette, draw
+from batik_vector.recipe.motif import (
+    Core,
+    Element,
+    Flower,
+    Leaf,
+    Petals,
+    Pistil,
+    Rosette,
+    draw,
+    most_contours,
+)
+from tests.budgets import counted
 
 TOLERANCE = 1e-3
 
@@ -116,6 +127,20 @@ def test_nested_contours_alternate() -> None:
         np.pi * (1 - 9 / 16 + 4 / 16 - 1 / 16), rel=1e-2
     )
     assert len(draw(rings, TOLERANCE)[0].lines) == 4
+
+
+def test_many_contours_are_put_together_in_few_overlays() -> None:
+    rings = Rosette(elements=(Element(curve=Circle(1.0), contours=64),))
+    with counted([(shapely, "symmetric_difference")]) as work:
+        areas = draw(rings, TOLERANCE)[0].areas
+    assert work.calls() == 6
+    assert len(areas) == 32
+
+
+def test_the_key_that_asks_for_the_most_contours_is_known() -> None:
+    assert most_contours(Flower(core=Core(contours=64), leaf=Leaf(contours=3))) == ("core.contours", 64)
+    rings = Rosette(elements=(Element(curve=Circle(1.0)), Element(curve=Circle(2.0), contours=5)))
+    assert most_contours(rings) == ("elements[1].contours", 5)
 
 
 def test_copies_are_spun_set_out_turned_and_mirrored() -> None:

@@ -17,6 +17,7 @@ import shapely
 from numpy.typing import NDArray
 
 from batik_vector.artwork import Geometries
+from batik_vector.geometry import work
 
 SPECK = 0.25
 """Grid cells: a hole smaller than this is no drawing."""
@@ -30,7 +31,12 @@ Again = Callable[[NDArray[np.intp]], shapely.Geometry | Geometries]
 
 
 def united(groups: Sequence[Geometries]) -> Geometries:
-    """Return the union of each group of areas: shape (n,)."""
+    """Return the union of each group of areas: shape (n,).
+
+    Raises:
+        TooLargeError: where they are too large, or cross too often.
+    """
+    work.spend_on_shapes(groups)
     joined = np.empty(len(groups), dtype=object)
     sizes = np.array([len(group) for group in groups], np.intp)
     # Groups of about one size are united in one call: a row may end in nothing.

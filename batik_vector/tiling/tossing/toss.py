@@ -132,6 +132,7 @@ def toss(spec: Toss, marks: Marks, torus: Torus, taken: Field, seed: int) -> Tos
     outlines = np.array([outline(body, spec.distance, marks.slack) for body in marks.bodies], dtype=object)
     kit = Kit.of(as_steps(outlines))
     _refuse_too_many(spec, kit, torus)
+    _refuse_impossible(spec, marks, torus)
     scatter = Scatter(torus, kit, spec.size[1] / spec.size[0], taken)
     darts = _filled(scatter, spec, marks, Dice(seed if spec.seed is None else spec.seed))
     _check_count(spec, scatter, marks)
@@ -159,6 +160,21 @@ def _refuse_too_many(spec: Toss, kit: Kit, torus: Torus) -> None:
         raise TooLargeError(
             f"about {about:,.0f} marks would fit, past {MOST_MARKS:,}: expected a count, larger marks or a "
             "smaller repeat"
+        )
+
+
+def _refuse_impossible(spec: Toss, marks: Marks, torus: Torus) -> None:
+    """Refuse a count for which the repeat has not the area; others are tried, and told when they fail."""
+    if spec.count is None or torus.stretch is not None:
+        return
+    # Marks grown by half the distance stay apart, whatever their size above the least.
+    grown = shapely.area(shapely.buffer(marks.bodies, spec.distance / 2, quad_segs=4))
+    each = float(grown.min()) * STEPS_PER_MM**2 * len(torus.operations)
+    most = int(torus.area / each)
+    if 0 < most < spec.count:
+        raise GeometryError(
+            f"count = {spec.count}: by their area alone no more than {most} fit at a distance of "
+            f"{format_mm(spec.distance)} mm, expected fewer, or smaller marks"
         )
 
 

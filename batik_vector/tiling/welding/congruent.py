@@ -19,6 +19,7 @@ import shapely
 from numpy.typing import NDArray
 
 from batik_vector.artwork import Geometries
+from batik_vector.geometry import work
 from batik_vector.geometry.outlines import Index, Offsets, Outlines, Steps, of_polygons, runs, to_polygons
 from batik_vector.geometry.ragged import Ragged
 from batik_vector.geometry.regions import oriented
@@ -269,10 +270,16 @@ class Stock:
         return np.asarray(made, dtype=object)
 
     def near(self, a: Copies, b: Copies) -> tuple[Index, Index]:
-        """Return the pairs, one of ``a`` and one of ``b``, whose bounds meet."""
+        """Return the pairs, one of ``a`` and one of ``b``, whose bounds meet.
+
+        Raises:
+            TooLargeError: where there are too many.
+        """
         if not len(a) or not len(b):
             return np.empty(0, np.intp), np.empty(0, np.intp)
-        mine, other = shapely.STRtree(_diagonals(self.bounds(b))).query(_diagonals(self.bounds(a)))
+        tree, asked = shapely.STRtree(_diagonals(self.bounds(b))), _diagonals(self.bounds(a))
+        work.refuse_pairs(tree, asked)
+        mine, other = tree.query(asked)
         return mine, other
 
     def holds(self, predicate: Predicate, a: Copies, b: Copies) -> NDArray[np.bool_]:

@@ -6,6 +6,7 @@ import numpy as np
 import shapely
 
 from batik_vector.artwork import Geometries
+from batik_vector.geometry import work
 from batik_vector.tiling.torus import overlay
 from batik_vector.units import STEPS_PER_MM
 
@@ -21,9 +22,14 @@ def quad_segs(radius: float, tolerance: float) -> int:
 
 
 def grown(marks: Geometries, reach: float, tolerance: float) -> Geometries:
-    """Return areas or lines in mm, grown by ``reach`` in mm to a tolerance."""
+    """Return areas or lines in mm, grown by ``reach`` in mm to a tolerance.
+
+    Raises:
+        TooLargeError: where they cross themselves too often.
+    """
     if not len(marks):
         return marks
+    work.spend_on_lines(marks, each=True)
     return np.asarray(shapely.buffer(marks, reach, quad_segs=quad_segs(reach, tolerance)), dtype=object)
 
 

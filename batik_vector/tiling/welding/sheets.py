@@ -5,6 +5,7 @@ Here they come from millimetres to the grid, all at once, so that what is congru
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import field
 from functools import partial
@@ -71,12 +72,15 @@ class Pile:
         sheets: as given.
         stock: of which the copies are.
         tolerance: in mm, for the round corners of what is grown.
+        farthest: mm by which anything is grown at most: what is grown so far covers all.
         areas: of all sheets.
         drawn: the areas of all sheets that have an ink.
     """
 
-    def __init__(self, sheets: Sequence[Sheet], stock: Stock, tolerance: float) -> None:
-        self.sheets, self.stock, self.tolerance = sheets, stock, tolerance
+    def __init__(
+        self, sheets: Sequence[Sheet], stock: Stock, tolerance: float, farthest: float = math.inf
+    ) -> None:
+        self.sheets, self.stock, self.tolerance, self.farthest = sheets, stock, tolerance, farthest
         own = [sheet.cutter if sheet.gap is not None else _none() for sheet in sheets]
         copies, place = _taken_up(stock, [*(sheet.areas for sheet in sheets), *own])
         every = Laid(copies, place % max(len(sheets), 1))
@@ -88,18 +92,22 @@ class Pile:
         self.drawn = every.taken(~second & has_ink[every.sheet])
         self._cutting = every.taken(cuts[every.sheet] & (second == has_own[every.sheet]))
 
+    def reach(self, number: int, extra: float = 0.0) -> float:
+        """Return by how much (mm) what a sheet cuts with is grown: its gap, and ``extra``."""
+        return min((self.sheets[number].gap or 0.0) + extra, self.farthest)
+
     def cutters(self, above: int = -1, extra: float = 0.0) -> Laid:
         """Return what sheets above a number cut away: their shapes, grown by gap and ``extra`` (mm)."""
         parts = []
         numbers = [n for n in range(above + 1, len(self.sheets)) if self.sheets[n].gap is not None]
-        reach = {number: (self.sheets[number].gap or 0.0) + extra for number in numbers}
+        reach = {number: self.reach(number, extra) for number in numbers}
         for radius in sorted(set(reach.values())):
             mine = [number for number in numbers if reach[number] == radius]
             parts.append(self.grown(self._cutting.taken(np.isin(self._cutting.sheet, mine)), radius))
         for number in numbers:
             sheet = self.sheets[number]
             if len(sheet.lines) and sheet.ink is not None and not len(sheet.cutter):
-                radius = reach[number] + sheet.ink.width / 2
+                radius = self.reach(number, extra + sheet.ink.width / 2)
                 copies, _ = self.stock.settled(grown(sheet.lines, radius, self.tolerance))
                 parts.append(Laid(copies, np.full(len(copies), number)))
         return joined(parts)

@@ -80,7 +80,7 @@ def assemble(
         SeamError: where opposite edges disagree however the seam is placed.
     """
     stock = Stock()
-    pile = Pile(sheets, stock, tolerance)
+    pile = Pile(sheets, stock, tolerance, _farthest(lattice, tolerance))
     _refuse_too_many(pile, cell, lattice)
     left = _cut(pile, lattice)
     for phase in range(PHASES):
@@ -91,11 +91,37 @@ def assemble(
     raise SeamError(f"opposite edges of the tile disagree at {PHASES} positions of the seam")
 
 
+def _farthest(lattice: Lattice, tolerance: float) -> float:
+    """Return how far (mm) a shape must grow for its repeats to cover the plane; further it need not.
+
+    No place is farther from the points of a lattice than the radius of the circle through the corners of the
+    triangle that its two shortest vectors make, which has no obtuse angle.
+    """
+    a, b = sorted((complex(*each) for each in lattice), key=abs)
+    while True:
+        b -= a * round((b * a.conjugate()).real / abs(a) ** 2)
+        if abs(b) >= abs(a):
+            break
+        a, b = b, a
+    third = min(abs(b - a), abs(b + a))
+    radius = abs(a) * abs(b) * third / (2 * abs((a.conjugate() * b).imag))
+    # A circle grown is drawn with chords.
+    return 1.001 * radius / STEPS_PER_MM + 2 * tolerance
+
+
 def _refuse_too_many(pile: Pile, cell: Cell, lattice: Lattice) -> None:
     (ax, ay), (bx, by) = lattice
     lines = np.concatenate([np.empty(0, dtype=object), *(sheet.lines for sheet in pile.sheets)])
-    lines = lines[~shapely.is_empty(lines)]
-    bounds = np.vstack([pile.stock.bounds(pile.areas.copies), shapely.bounds(lines) * STEPS_PER_MM])
+    of = np.repeat(np.arange(len(pile.sheets)), [len(sheet.lines) for sheet in pile.sheets])
+    lines, of = lines[~shapely.is_empty(lines)], of[~shapely.is_empty(lines)]
+    gaps = np.array([pile.reach(number) for number in range(len(pile.sheets))]) * STEPS_PER_MM
+    grown = np.outer(gaps, [-1, -1, 1, 1])
+    bounds = np.vstack(
+        [
+            pile.stock.bounds(pile.areas.copies) + grown[pile.areas.sheet],
+            shapely.bounds(lines) * STEPS_PER_MM + grown[of],
+        ]
+    )
     if not len(bounds):
         return
     vertices = shapely.get_num_coordinates(pile.stock.shapes)[pile.areas.copies.kind]

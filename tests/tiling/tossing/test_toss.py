@@ -228,9 +228,17 @@ def test_marks_do_not_nest_in_holes_and_notches_of_others() -> None:
     assert shapely.distance(drawn(after, [DOT]), middle).min() > 8
 
 
+def test_marks_of_more_area_than_the_repeat_are_refused_before_any_is_thrown(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.delattr("batik_vector.tiling.tossing.toss.thrown")
+    with pytest.raises(GeometryError, match=r"count = 500: by their area alone no more than 27 fit"):
+        toss(Toss(count=500), marks(BEAN), torus(), NOTHING, 1)
+
+
 def test_what_cannot_fit_is_refused_with_what_does() -> None:
-    with pytest.raises(GeometryError, match=r"count = 500: only (\d+) fit") as caught:
-        toss(Toss(count=500, tries=200, settle=0), marks(BEAN), torus(), NOTHING, 1)
+    with pytest.raises(GeometryError, match=r"count = 26: only (\d+) fit") as caught:
+        toss(Toss(count=26, tries=200, settle=0), marks(BEAN), torus(), NOTHING, 1)
     fit = int(str(caught.value).split("only ")[1].split(" fit")[0])
     assert 8 < fit < 40
     assert f"at most {fit}" in str(caught.value)

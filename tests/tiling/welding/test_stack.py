@@ -13,6 +13,7 @@ from batik_vector.recipe.model import InkSpec, Placement, Recipe
 from batik_vector.recipe.motif import Element, Motif, Rosette, Treatment
 from batik_vector.tiling.layouts import Ring
 from batik_vector.tiling.symmetry.repeats import Cut, TileSpec
+from batik_vector.tiling.welding import sheets
 from batik_vector.tiling.welding.sheets import Sheet
 from batik_vector.tiling.welding.stack import assemble
 from tests.budgets import counted
@@ -105,6 +106,33 @@ def test_what_is_made_in_python_may_hold_lists() -> None:
         tile=TileSpec(size=(20.0, 20.0)),
     )
     assert len(compile_recipe(recipe).layers[0].areas) == 1
+
+
+@pytest.mark.parametrize("gap", [15.0, 1000.0])
+def test_a_gap_wider_than_the_repeat_grows_a_mark_no_farther_than_covers_all(
+    gap: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    reached = []
+
+    def watched(self: sheets.Pile, laid: sheets.Laid, radius: float) -> sheets.Laid:
+        reached.append(radius)
+        return grown(self, laid, radius)
+
+    grown = sheets.Pile.grown
+    monkeypatch.setattr(sheets.Pile, "grown", watched)
+    motif = Rosette(
+        elements=(Element(curve=Circle(9.0), name="under"), Element(curve=Circle(0.5), name="over", gap=gap))
+    )
+    recipe = Recipe(
+        motif={"m": motif},
+        ink={"wax": InkSpec(colour="#f4efe2")},
+        place=(Placement(motif="m", scale=1.0, ink="wax"),),
+        tile=TileSpec(size=(20.0, 20.0)),
+    )
+    (area,) = compile_recipe(recipe).layers[0].areas
+    assert shapely.area(area) == pytest.approx(np.pi / 4, rel=0.05)
+    # Half the diagonal of the repeat reaches every place.
+    assert max(reached) < 10 * 2**0.5 + 0.5
 
 
 @pytest.mark.parametrize("contours", range(2, 10))
