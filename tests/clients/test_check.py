@@ -35,7 +35,7 @@ def saved(svg: Path, folder: Path, way: str) -> Path:
 
 
 def found(path: Path) -> Found:
-    return check_source(str(path), (), Wishes(group="p4"))
+    return check_source(str(path), (), Wishes(group="p4", limits={"double": 0.005}))
 
 
 @pytest.mark.clients

@@ -22,7 +22,7 @@ FEW = 1e-3
 
 def written(artwork: Artwork, folder: Path, version: DxfVersion) -> Path:
     path = folder / "drawing.dxf"
-    path.write_bytes(render(artwork, "dxf", DxfOptions(version=version)))
+    path.write_bytes(render(artwork, "dxf", DxfOptions(version=version), check=False))
     return path
 
 

@@ -16,7 +16,7 @@ from batik_vector.geometry.maps.affine import IDENTITY, Affine
 from batik_vector.geometry.maps.affines import Affines, turns
 from batik_vector.geometry.sampling import Array
 from batik_vector.tiling.layouts.grounds import Toss
-from batik_vector.tiling.torus.torus import as_steps
+from batik_vector.tiling.torus.torus import as_steps, to_mm
 from batik_vector.tiling.tossing.darts import Dice, Rules, Spacing, thrown
 from batik_vector.tiling.tossing.marks import Field, Kit, Poses
 from batik_vector.tiling.tossing.scatter import Scatter, Torus
@@ -113,6 +113,11 @@ def outline(body: shapely.Geometry, distance: float, slack: float) -> shapely.Ge
     return shapely.simplify(grown, step * 0.95)
 
 
+def _whole(marks: Geometries) -> Geometries:
+    """Return marks with every vertex in whole steps."""
+    return np.asarray(shapely.transform(marks, np.rint), dtype=object)
+
+
 def toss(spec: Toss, marks: Marks, torus: Torus, taken: Field, seed: int) -> Tossed:
     """Scatter marks over the torus.
 
@@ -129,8 +134,11 @@ def toss(spec: Toss, marks: Marks, torus: Torus, taken: Field, seed: int) -> Tos
     """
     spec = replace(spec, distance=max(spec.distance, marks.reach))
     _check_distance(spec, torus)
-    outlines = np.array([outline(body, spec.distance, marks.slack) for body in marks.bodies], dtype=object)
-    kit = Kit.of(as_steps(outlines))
+    # Whole steps throughout: where two ways to simplify are as good, the last bit of a sine would choose, and
+    # processors have different ones.
+    bodies = to_mm(_whole(as_steps(marks.bodies)))
+    outlines = np.array([outline(body, spec.distance, marks.slack) for body in bodies], dtype=object)
+    kit = Kit.of(_whole(as_steps(outlines)))
     _refuse_too_many(spec, kit, torus)
     _refuse_impossible(spec, marks, torus)
     scatter = Scatter(torus, kit, spec.size[1] / spec.size[0], taken)
