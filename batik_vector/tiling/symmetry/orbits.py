@@ -55,8 +55,11 @@ class Region:
         """Return over which edges pieces lap that an operation carries to their place.
 
         Where the image of an edge runs along an axis, all that meets there is rounded to one line: a lap
-        would stand over it as a strip of ink.
+        would stand over it as a strip of ink. In a region with mirrors all images lap alike, or the pieces on
+        two sides of a mirror would not have the same vertices where a lap ends on it.
         """
+        if any(self.mirrored):
+            return tuple(not mirror for mirror in self.mirrored)
         corners = operation.at(np.array(self.corners))
         along = np.abs(np.roll(corners, -1, axis=0) - corners)
         aslant = along.min(axis=1) > LEVEL * along.max(axis=1)
