@@ -159,9 +159,10 @@ class Certificate:
 
     ``cell`` is its width and height in mm, ``drop`` as text ("0", "1/2"), ``group`` the symmetry group found
     in the geometry and ``asked`` the one expected, None where nobody looked or asked. ``exact`` says that all
-    coordinates lie on the 1 µm grid; others are measured on a grid of ``grid`` mm. ``remarks`` are told as
-    faults are, and let the tile pass. ``along`` is the ink that ends along the page's edges by design,
-    ``hints`` say what would mend a fault, and ``unmeasured`` what no verdict is given about.
+    coordinates lie on the 1 µm grid; others are measured on a grid of ``grid`` mm. ``covers`` is the share of
+    the page that the areas of each ink cover. ``remarks`` are told as faults are, and let the tile pass.
+    ``along`` is the ink that ends along the page's edges by design, ``hints`` say what would mend a fault,
+    and ``unmeasured`` what no verdict is given about.
     """
 
     title: str
@@ -172,6 +173,7 @@ class Certificate:
     limits: Limits
     worst: Measures
     inks: Mapping[str, Measures]
+    covers: Mapping[str, float]
     group: str | None
     asked: str | None
     faults: tuple[SeamFault, ...]

@@ -6,6 +6,7 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
+import shapely
 
 from batik_vector.artwork import Artwork, RawArtwork, breaches
 from batik_vector.certificate.crossings import Crossings, area_crossings, break_faults
@@ -107,6 +108,7 @@ def certify(
         ledger.accuse(*shared_lines(tile.inks, tile.frame, limits), *bare_gaps(tile, limits.between))
     columns, rows = (_check_striping(tile, axis, ledger) for axis in (0, 1))
     found = _check_symmetry(artwork, wanted, ledger) if symmetry or wanted else None
+    page = float(tile.frame.cell.columns) * tile.frame.cell.rows
     inks = {name: together(measures) for name, measures in ledger.noted.items()}
     apart = max((each.mismatch for each in joints), default=0.0)
     worst = together([*inks.values(), Measures(mismatch=apart)])
@@ -119,6 +121,7 @@ def certify(
         limits=limits,
         worst=replace(worst, columns=columns, rows=rows),
         inks=inks,
+        covers={ink.ink.name: float(shapely.area(ink.areas).sum()) / page for ink in tile},
         group=found,
         asked=wanted.name if wanted else None,
         faults=tuple(fault for fault in ledger.faults if fault.kind not in remarked),

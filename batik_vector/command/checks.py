@@ -13,10 +13,7 @@ from dataclasses import field, replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-import shapely
-
-from batik_vector.artwork import Artwork, Cell, Layer, Overlap
+from batik_vector.artwork import Artwork
 from batik_vector.certificate import Asked, Certificate, Kind, Limits, certify, pointers
 from batik_vector.command.carried_recipes import Promise, bled, differences, promised
 from batik_vector.command.jobs import Job, made, read_jobs, warnings
@@ -31,8 +28,6 @@ from batik_vector.recipe.reading.sources import COMPILED
 from batik_vector.tiling.symmetry.groups import group
 from batik_vector.tiling.symmetry.machine_fit import per_cent
 from batik_vector.tiling.symmetry.repeats import parse_repeat, repeat_of
-from batik_vector.tiling.torus.torus import Window, clip_areas, polygons_of, to_step_grid
-from batik_vector.tiling.welding.weld import welded
 from batik_vector.values import frozen
 
 Tell = Callable[[str], None]
@@ -257,22 +252,13 @@ def _drawing_found(
     apart = differences(artwork, promise.artwork) if promise and not broken else []
     facts = inspect(artwork)
     for told, layer in zip(facts["layers"], artwork.layers, strict=True):
-        told["covers"] = _covers(layer, artwork.cell)
+        told["covers"] = round(certificate.covers[layer.ink.name], 6)
     facts["page_mm"] = [round(side, 6) for side in reading.page]
     # The normal form and equal bits on the seam are for what this program compiles.
     facts["violations"], facts["seam"] = [], []
     facts["broken"], facts["differences"] = broken, apart
     recipe = promise.recipe if promise else None
     return _found(source, artwork, certificate, facts, checked="geometry", notes=notes, recipe=recipe)
-
-
-def _covers(layer: Layer, cell: Cell) -> float:
-    """Return the share of the page that the areas of a layer cover, however they overlap."""
-    areas, none = polygons_of(to_step_grid(layer.areas), np.zeros(len(layer.areas), np.intp))
-    areas, none = clip_areas(areas, none, Window(0, 0, cell.columns, cell.rows))
-    if layer.ink.overlap is Overlap.OVERLAY:
-        areas, _ = welded(areas)
-    return round(float(shapely.area(areas).sum()) / (cell.columns * cell.rows), 6)
 
 
 def _found(
