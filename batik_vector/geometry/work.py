@@ -19,10 +19,11 @@ from numpy.typing import NDArray
 from batik_vector.errors import TooLargeError
 from batik_vector.geometry.sampling import Array, Geometries, Indices
 
-LIMIT = 1_000_000.0
-"""What one compilation may do: a union of as many vertices takes about ten seconds."""
+LIMIT = 20_000_000.0
+"""What one compilation may do. What is counted goes through several overlays of one recipe, and most of it
+through fast ones: a recipe at half of the limit takes some ten seconds, others at it a minute."""
 
-PER_CROSSING, PER_SELF_CROSSING = 1.0, 4.0
+PER_CROSSING, PER_SELF_CROSSING = 0.05, 80.0
 """What a crossing of two areas, and one of lines, costs in vertices that go through a union: areas that lie
 over one another dissolve as they are united, and lines do not."""
 

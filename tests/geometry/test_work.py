@@ -48,8 +48,9 @@ def test_an_account_adds_up_what_is_spent_inside_it() -> None:
 
 def test_discs_that_all_lie_on_one_another_are_refused_and_those_apart_are_not() -> None:
     rng = np.random.default_rng(2)
-    for spread, fits in ((10_000.0, True), (1.0, False)):
-        discs = np.asarray(shapely.buffer(shapely.points(rng.random((1500, 2)) * spread), 1.0), dtype=object)
+    for spread, fits in ((40_000.0, True), (1.0, False)):
+        centres = shapely.points(rng.random((30_000, 2)) * spread)
+        discs = np.asarray(shapely.buffer(centres, 1.0), dtype=object)
         if fits:
             work.spend_on_shapes([discs])
         else:
