@@ -27,7 +27,7 @@ PER_CROSSING, PER_SELF_CROSSING = 0.05, 80.0
 """What a crossing of two areas, and one of lines, costs in vertices that go through a union: areas that lie
 over one another dissolve as they are united, and lines do not."""
 
-MAX_PAIRS = 3_000_000
+MAX_PAIRS = 10_000_000
 """Pairs of shapes whose bounds meet: they are held in memory all at once."""
 
 SMALL, FEW = 20_000, 500
