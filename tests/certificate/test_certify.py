@@ -58,7 +58,7 @@ def test_samples_pass(name: str, group: str) -> None:
 
 
 UNMENDED = ("p4", "p6m")
-"""What twenty find here is not mended: a turn told of coarse stripes, and edges that disagree at a sharp tip."""
+"""What twenty find here is not mended: a turn told of coarse stripes, edges that disagree at a tip."""
 
 
 @long
