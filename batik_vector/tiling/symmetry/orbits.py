@@ -55,11 +55,8 @@ class Region:
         """Return over which edges pieces lap that an operation carries to their place.
 
         Where the image of an edge runs along an axis, all that meets there is rounded to one line: a lap
-        would stand over it as a strip of ink. In a region with mirrors all images lap alike, or the pieces on
-        two sides of a mirror would not have the same vertices where a lap ends on it.
+        would stand over it as a strip of ink.
         """
-        if any(self.mirrored):
-            return tuple(not mirror for mirror in self.mirrored)
         corners = operation.at(np.array(self.corners))
         along = np.abs(np.roll(corners, -1, axis=0) - corners)
         aslant = along.min(axis=1) > LEVEL * along.max(axis=1)
@@ -143,6 +140,9 @@ class Orbit:
         there = wrap(steps, np.arange(len(steps)), self._lattice(), window)
         maps = [_on_steps(operation) for operation in self.operations]
         laps = [self.region.lapped(each) for each in maps]
+        if any(self.region.mirrored):
+            # Pieces on two sides of a mirror have the same vertices where a lap ends on it: all lap alike.
+            laps = [tuple(map(any, zip(*laps, strict=True)))] * len(maps)
         pieces = {
             lapped: _within(*there, self.region.shape(lapped), crumb * STEPS_PER_MM)
             for lapped in dict.fromkeys(laps)

@@ -92,9 +92,8 @@ def test_a_region_laps_over_edges_that_come_to_run_aslant_only() -> None:
     # Turned, the first edge runs aslant too.
     assert region.lapped(Affine.turn(60)) == (True, True, True)
     assert region.lapped(Affine.turn(90)) == (False, True, True)
-    # A mirror is never lapped over, and beside it all images are cut alike.
-    for turn in (0, 60, 90):
-        assert Region(corners, (False, False, True)).lapped(Affine.turn(turn)) == (True, True, False)
+    # A mirror is never lapped over.
+    assert Region(corners, (False, False, True)).lapped(Affine.turn(60)) == (True, True, False)
     assert region.shape((False,) * 3).equals(shapely.Polygon(corners))
     lapped = region.shape((False, True, True))
     assert lapped.bounds[1] == pytest.approx(0, abs=1e-9)
