@@ -18,7 +18,7 @@ from batik_vector.certificate.drawing import Borders, InkDrawing
 from batik_vector.certificate.report import EdgeStretch, Kind, Limits, Measures, SeamFault
 from batik_vector.certificate.seam import EDGE_NAMES, Seam, nearest_distance, traces
 from batik_vector.certificate.shifts import Events
-from batik_vector.tiling.torus.seams import Intervals, joined, symmetric_difference
+from batik_vector.tiling.torus.seams import Intervals, inside, joined, symmetric_difference
 from batik_vector.units import format_mm
 from batik_vector.values import frozen
 
@@ -58,7 +58,7 @@ class Crossings:
         seam, per_mm = self.seam, self.seam.frame.per_mm
         cuts = np.unique(np.concatenate([self.here.ravel(), self.there.ravel(), self.breaks.ravel()]))
         middle = (cuts[1:] + cuts[:-1]) / 2
-        near, far, broken = (_within(middle, each) for each in (self.here, self.there, self.breaks))
+        near, far, broken = (inside(middle, each) for each in (self.here, self.there, self.breaks))
         found = []
         for is_far, only in ((False, near & ~far & ~broken), (True, far & ~near & ~broken)):
             stretches = joined(np.column_stack([cuts[:-1][only], cuts[1:][only]]))
@@ -82,12 +82,6 @@ class Crossings:
         """Return the crossings of near and far edge, sorted by ink and by whether it begins or ends there."""
         near, far = (_ends(covered, self.seam.length) for covered in (self.here, self.there))
         return Events(near.along, near.sort + 3 * number), Events(far.along, far.sort + 3 * number)
-
-
-def _within(places: NDArray[np.float64], intervals: Intervals) -> NDArray[np.bool_]:
-    """Tell which places lie in one of disjoint, ascending intervals."""
-    row = np.searchsorted(intervals[:, 0], places, side="right") - 1
-    return np.asarray((row >= 0) & (places < np.append(intervals[:, 1], 0)[row]))
 
 
 def _ends(covered: Intervals, length: int) -> Events:

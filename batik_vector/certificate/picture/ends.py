@@ -10,7 +10,6 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from batik_vector.certificate.drawing import SNAP
 from batik_vector.certificate.picture.bodies import Bodies
 from batik_vector.certificate.report import Limits
 from batik_vector.certificate.seam import Seam
@@ -82,7 +81,7 @@ class Ends:
         seam, per_mm = self.seam, self.seam.frame.per_mm
         ends = self.bodies.ends[self.bodies.end_owner == owner] * per_mm
         across, along = ends[:, seam.axis], ends[:, 1 - seam.axis]
-        on_near, on_far = (np.abs(across - edge) <= SNAP * per_mm for edge in (seam.near, seam.far))
+        on_near, on_far = (np.abs(across - edge) <= ON_EDGE * per_mm for edge in (seam.near, seam.far))
         return np.asarray(np.concatenate([along[on_near], along[on_far] - seam.slip]) % seam.length)
 
     def reaches(self, body: int, low: float, high: float) -> bool:

@@ -207,12 +207,10 @@ class _Comparison:
         stacks = [side.stack(middle, self.limit) for side in (self.near, self.far)]
         tops = [stack[0][0] if stack else -1 for stack in stacks]
         cause, body = self._cause(low, high, stacks)
-        kinds = [{int(self.bodies.paint[body]) for body, _ in stack} for stack in stacks]
         ending = [
             (body, bool(far))
             for far in (0, 1)
-            for body, _ in _visible(stacks[far], self.bodies)
-            if int(self.bodies.paint[body]) not in kinds[1 - far]
+            for body, _ in _more(_visible(stacks[far], self.bodies), stacks[1 - far], self.bodies.paint)
         ]
         return Joint(low, high, tops[0], tops[1], cause, body, tuple(ending))
 

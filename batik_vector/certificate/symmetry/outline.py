@@ -197,8 +197,8 @@ def _one_sided(areas: Geometries, cell: Cell, kind: int) -> Edges:
         cuts = np.unique(np.concatenate([here.ravel(), there.ravel()]))
         odd = np.column_stack([cuts[:-1], cuts[1:]])
         middle = odd.mean(axis=1)
-        inner = _within(middle, here)
-        lone = inner != _within(middle, there)
+        inner = seams.inside(middle, here)
+        lone = inner != seams.inside(middle, there)
         odd, inner = odd[lone], inner[lone]
         # What is covered lies on the left: along x = 0 the covered side x > 0 is left of the way down.
         forward = inner != (axis == 0)
@@ -208,9 +208,3 @@ def _one_sided(areas: Geometries, cell: Cell, kind: int) -> Edges:
         found.append(rows)
     both = np.vstack(found) / STEPS_PER_MM
     return Edges(both[:, :2], both[:, 2:], np.full(len(both), kind, np.intp))
-
-
-def _within(places: NDArray[np.float64], intervals: seams.Intervals) -> NDArray[np.bool_]:
-    """Return which places lie in one of disjoint, ascending intervals."""
-    at = np.searchsorted(intervals[:, 0], places, side="right") - 1
-    return np.asarray((at >= 0) & (places < np.r_[intervals[:, 1], 0][at]))

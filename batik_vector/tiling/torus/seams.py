@@ -41,6 +41,12 @@ def joined(intervals: Intervals) -> Intervals:
     return np.column_stack([intervals[new, 0], reach[last]])
 
 
+def inside(places: NDArray[np.float64], intervals: Intervals) -> NDArray[np.bool_]:
+    """Tell which places lie in one of disjoint, ascending intervals."""
+    row = np.searchsorted(intervals[:, 0], places, side="right") - 1
+    return np.asarray((row >= 0) & (places < np.append(intervals[:, 1], 0)[row]))
+
+
 def opposite_edges(cell: Cell) -> list[tuple[int, int, int, int]]:
     """Return the pairs of edges that must agree: (axis, value, opposite value, shift along the edge).
 
