@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import shapely
 
-from batik_vector.artwork import Artwork, Geometries, Ink, Layer, Overlap, violations
+from batik_vector.artwork import Artwork, Cell, Geometries, Ink, Layer, Overlap, violations
 from batik_vector.certificate.report import Certificate
 from batik_vector.geometry.regions import oriented
 from batik_vector.tiling.torus.torus import (
@@ -44,33 +44,32 @@ def pointers(artwork: Artwork, certificate: Certificate) -> Artwork:
     layer is added.
     """
     artwork = artwork if not violations(artwork) else _tidied(artwork)
-    places = sorted(
-        {
-            place
-            for fault in (*certificate.faults, *certificate.remarks)
-            for place in _shown(fault.where, artwork)
-        }
-    )
-    if not places:
+    lines, breadth = pointer_lines(artwork.cell, certificate)
+    if not len(lines):
         return artwork
-    cell = artwork.cell
-    radius = RADIUS * min(cell.width, cell.height)
-    marks = np.concatenate([_mark(place, (cell.width / 2, cell.height / 2), radius) for place in places])
-    lines = to_step_grid(marks)
-    names = np.zeros(len(lines), np.intp)
-    lines, names = drawn_once(*clip_lines(lines, names, Window(0, 0, cell.columns, cell.rows)))
     taken = {layer.ink.name for layer in artwork.layers}
     name = NAME
     while name in taken:
         name += "-"
-    ink = Ink(name, COLOUR, max(round(STROKE * radius, 3), 0.001))
-    layer = Layer(ink, lines=to_mm(lines), line_names=(NAME,) * len(lines))
+    layer = Layer(Ink(name, COLOUR, breadth), lines=lines, line_names=(NAME,) * len(lines))
     return replace(artwork, layers=(*artwork.layers, layer))
 
 
-def _shown(where: tuple[float, float], artwork: Artwork) -> list[tuple[float, float]]:
+def pointer_lines(cell: Cell, certificate: Certificate) -> tuple[Geometries, float]:
+    """Return the lines (mm) that point at all that is wrong on a page, and their breadth in mm."""
+    told = (*certificate.faults, *certificate.remarks)
+    places = sorted({place for fault in told for place in _shown(fault.where, cell)})
+    radius = RADIUS * min(cell.width, cell.height)
+    middle = cell.width / 2, cell.height / 2
+    marks = [mark for place in places for mark in _mark(place, middle, radius)]
+    lines = to_step_grid(np.array(marks, dtype=object))
+    window = Window(0, 0, cell.columns, cell.rows)
+    lines, _ = drawn_once(*clip_lines(lines, np.zeros(len(lines), np.intp), window))
+    return to_mm(lines), max(round(STROKE * radius, 3), 0.001)
+
+
+def _shown(where: tuple[float, float], cell: Cell) -> list[tuple[float, float]]:
     """Return a place on the page, and its twins where it lies on an edge."""
-    cell = artwork.cell
     (ax, ay), (bx, by) = (np.array(each) / 1000 for each in cell.lattice)
     found = []
     for i in (-1, 0, 1):

@@ -15,12 +15,16 @@ from typing import Any
 
 from batik_vector.artwork import Artwork
 from batik_vector.certificate import Asked, Certificate, Kind, Limits, certify, pointers
+from batik_vector.certificate.pointers import COLOUR, NAME, pointer_lines
 from batik_vector.command.carried_recipes import Promise, bled, differences, promised
 from batik_vector.command.jobs import Job, made, read_jobs, warnings
 from batik_vector.compiling.compiler import compile_recipe, inspect
 from batik_vector.errors import BatikError, ExportError, Fault, GeometryError, RecipeError
 from batik_vector.export import render, write_all_whole
 from batik_vector.export.provenance import read_provenance
+from batik_vector.importing.document import load
+from batik_vector.importing.matrix import Matrix
+from batik_vector.importing.overlay import laid_over
 from batik_vector.importing.svg import Reading, read_svg
 from batik_vector.recipe.loading import read_recipe
 from batik_vector.recipe.model import Recipe
@@ -74,12 +78,13 @@ MEASURING = 0.002
 
 @frozen(eq=False)
 class Found:
-    """What was measured of one source."""
+    """What was measured of one source; ``onto`` as in :class:`Reading`, of a drawing without a recipe."""
 
     source: str
     artwork: Artwork
     certificate: Certificate
     facts: dict[str, Any]
+    onto: Matrix | None = None
 
     @property
     def passed(self) -> bool:
@@ -258,7 +263,8 @@ def _drawing_found(
     facts["violations"], facts["seam"] = [], []
     facts["broken"], facts["differences"] = broken, apart
     recipe = promise.recipe if promise else None
-    return _found(source, artwork, certificate, facts, checked="geometry", notes=notes, recipe=recipe)
+    found = _found(source, artwork, certificate, facts, checked="geometry", notes=notes, recipe=recipe)
+    return found if promise else replace(found, onto=reading.onto)
 
 
 def _found(
@@ -319,6 +325,16 @@ def pointer_files(sources: Sequence[str], folder: Path) -> dict[str, Path]:
     return places
 
 
+def _pointed_at(found: Found) -> bytes:
+    """Return a drawing with marks at its faults: the file itself, as far as it can be left as it is."""
+    if found.onto is not None:
+        lines, breadth = pointer_lines(found.artwork.cell, found.certificate)
+        shown = laid_over(load(found.source)[0], found.onto, lines, breadth, COLOUR, NAME)
+        if shown is not None:
+            return shown
+    return render(pointers(found.artwork, found.certificate), "svg", check=False)
+
+
 def write_pointers(found: Sequence[Found], places: dict[str, Path]) -> list[Path]:
     """Write, all or none, a drawing for each source that has faults, with a mark at each of them.
 
@@ -331,8 +347,7 @@ def write_pointers(found: Sequence[Found], places: dict[str, Path]) -> list[Path
     files = []
     for each in found:
         if each.certificate.faults or each.certificate.remarks:
-            shown = pointers(each.artwork, each.certificate)
-            files.append((places[each.source], render(shown, "svg", check=False)))
+            files.append((places[each.source], _pointed_at(each)))
     try:
         for path, _ in files:
             path.parent.mkdir(parents=True, exist_ok=True)

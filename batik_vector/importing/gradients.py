@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from batik_vector.importing.colours import colour_of
 from batik_vector.importing.document import MAX_DEPTH, Document, children, local, reference
-from batik_vector.importing.matrix import Matrix, moved, parse_transform, times
+from batik_vector.importing.matrix import Matrix, inverse_of, moved, parse_transform, times
 from batik_vector.importing.page import parse_px
 from batik_vector.importing.styles import share_of
 from batik_vector.values import frozen
@@ -87,13 +87,6 @@ def gradient_of(
         return None
     along = (_linear if kind == "linearGradient" else _radial)(get, box[2:] if user else (1.0, 1.0))
     return Gradient(inverse_of(whole), along, get("spreadMethod"), stops, colours)
-
-
-def inverse_of(matrix: Matrix) -> Matrix:
-    """Return the map that undoes an affine map."""
-    a, b, c, d, e, f = matrix
-    det = a * d - b * c
-    return d / det, -b / det, -c / det, a / det, (c * f - d * e) / det, (b * e - a * f) / det
 
 
 def _chain(document: Document, server: ET.Element) -> list[ET.Element]:

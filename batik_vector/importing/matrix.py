@@ -54,6 +54,13 @@ def times(a: Matrix, b: Matrix) -> Matrix:
     )
 
 
+def inverse_of(matrix: Matrix) -> Matrix:
+    """Return the map that undoes an affine map."""
+    a, b, c, d, e, f = matrix
+    det = a * d - b * c
+    return d / det, -b / det, -c / det, a / det, (c * f - d * e) / det, (b * e - a * f) / det
+
+
 def moved(points: NDArray[np.float64], matrix: Matrix) -> NDArray[np.float64]:
     """Return points, shape (n, 2), under a map."""
     a, b, c, d, e, f = matrix

@@ -29,7 +29,8 @@ Box = tuple[float, float, float, float]
 class Page:
     """The page in mm, and the map from the root's user units to mm on it, y still downwards.
 
-    ``size`` are its sides in user units, to which percentages refer.
+    ``size`` are its sides in user units, to which percentages refer. ``whole`` says that it is the document's
+    own page, and not the cell of a pattern on it.
     """
 
     width: float
@@ -37,6 +38,7 @@ class Page:
     matrix: Matrix
     size: tuple[float, float]
     guessed: str = ""
+    whole: bool = True
 
 
 def parse_px(text: str | None, whole: float | None = None) -> float | None:

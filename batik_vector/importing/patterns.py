@@ -10,8 +10,7 @@ import numpy as np
 import shapely
 
 from batik_vector.importing.document import MAX_DEPTH, Document, children, local, reference
-from batik_vector.importing.gradients import inverse_of
-from batik_vector.importing.matrix import Matrix, moved, parse_transform, spread, times
+from batik_vector.importing.matrix import Matrix, inverse_of, moved, parse_transform, spread, times
 from batik_vector.importing.outlines import CURVE, Outline
 from batik_vector.importing.page import Box, Page, fitted, parse_px, view_box
 from batik_vector.importing.paint import url_of
@@ -48,7 +47,7 @@ class Pattern:
         across, down = math.hypot(a, b), math.hypot(c, d)
         own = times((across, 0.0, 0.0, down, -x * across, -y * down), self.content)
         skewed = abs(a * c + b * d) > SKEW * across * down
-        return Page(width * across, height * down, own, self.size), skewed
+        return Page(width * across, height * down, own, self.size, whole=False), skewed
 
     def shifts(self, outline: Outline) -> Iterator[tuple[float, float]]:
         """Yield how far the cells lie from the first, in the pattern's space, that an outline may show."""

@@ -21,7 +21,7 @@ from batik_vector.importing.bodies import bodies_on_rim
 from batik_vector.importing.clips import clipped
 from batik_vector.importing.document import Document, DrawingError, children, load, local, parse
 from batik_vector.importing.inks import Marks, layers_of, painted
-from batik_vector.importing.matrix import PX_PER_INCH, Matrix
+from batik_vector.importing.matrix import PX_PER_INCH, Matrix, inverse_of, times
 from batik_vector.importing.outlines import CURVE, Outline, joined
 from batik_vector.importing.page import Page
 from batik_vector.importing.painting import Bodies
@@ -50,7 +50,8 @@ class Reading:
     ``page`` is the size in mm that the file gives, before its sides came to whole micrometres. ``notes``
     say, for people, what was guessed, taken for something else or passed over. ``ours`` tells whether the
     file says that this program wrote it, ``curved`` whether it draws any curves. ``bodies`` are what it
-    paints along the edges of its page, and ``unmeasured`` says what no certificate can answer for.
+    paints along the edges of its page, and ``unmeasured`` says what no certificate can answer for. ``onto``
+    leads from the artwork's mm to the user units of the file's root, None where its page is not the tile.
     """
 
     artwork: Artwork
@@ -60,6 +61,7 @@ class Reading:
     curved: bool
     bodies: Bodies
     unmeasured: tuple[str, ...] = ()
+    onto: Matrix | None = None
 
 
 def read_tile(
@@ -113,7 +115,8 @@ def read_svg(
     artwork = RawArtwork(_title(document), cell, layers, cloth, tolerance, bleed)
     curved = any((shape.outline.kinds == CURVE).any() for shape in shapes)
     notes, unmeasured = tuple(document.notes), tuple(document.unmeasured)
-    return Reading(artwork, (page.width, page.height), notes, ours, curved, bodies, unmeasured)
+    onto = inverse_of(times(_flip(page, cell, bleed), page.matrix)) if page.whole else None
+    return Reading(artwork, (page.width, page.height), notes, ours, curved, bodies, unmeasured, onto)
 
 
 def _cell(document: Document, page: Page, drop: Fraction, axis: DropAxis, bleed: float) -> Cell:
@@ -126,10 +129,15 @@ def _cell(document: Document, page: Page, drop: Fraction, axis: DropAxis, bleed:
     return Cell(columns, rows, drop, axis)
 
 
+def _flip(page: Page, cell: Cell, bleed: float) -> Matrix:
+    """Return the map from a page's mm, y down, to those of its cell, y up."""
+    across, up = cell.width / (page.width - 2 * bleed), cell.height / (page.height - 2 * bleed)
+    return across, 0.0, 0.0, -up, -bleed * across, (page.height - bleed) * up
+
+
 def _marks(shapes: list[Shape], page: Page, cell: Cell, tolerance: float, bleed: float) -> Marks:
     """Return what shapes paint in mm, y up, the cell's lower left corner at (0, 0)."""
-    across, up = cell.width / (page.width - 2 * bleed), cell.height / (page.height - 2 * bleed)
-    flip: Matrix = (across, 0.0, 0.0, -up, -bleed * across, (page.height - bleed) * up)
+    flip = _flip(page, cell, bleed)
 
     def flatten(outline: Outline) -> Lines:
         return flattened(outline.moved(flip), cell.width, cell.height, tolerance)
