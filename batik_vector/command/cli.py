@@ -57,13 +57,16 @@ class _Commands(click.Group):
             # Whoever read has gone; what is left in the buffer must not be flushed into the pipe.
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
             ctx.exit(SIGPIPE_EXIT)
-        except MemoryError:
+        except RecursionError:
+            _complain("this is nested too deeply")
+            ctx.exit(2)
+        except Exception as error:
+            # GEOS tells by an error of its own that memory has run out.
+            if not (isinstance(error, MemoryError) or str(error) == "std::bad_alloc"):
+                raise
             _complain(
                 "this needs more memory than there is: lower the counts or levels, or allow more tolerance"
             )
-            ctx.exit(2)
-        except RecursionError:
-            _complain("this is nested too deeply")
             ctx.exit(2)
 
 

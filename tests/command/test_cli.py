@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import shapely
 from click.testing import Result
 
 import batik_vector
@@ -320,3 +321,14 @@ def test_the_front_door() -> None:
         _ = batik_vector.compile_recipee
     run = python("-c", "import sys, batik_vector; print('numpy' in sys.modules, batik_vector.__version__)")
     assert run.stdout == f"False {batik_vector.__version__}\n"
+
+
+@pytest.mark.parametrize("error", [MemoryError(), shapely.errors.GEOSException("std::bad_alloc")])
+def test_where_memory_runs_out_it_is_said(error: Exception, monkeypatch: pytest.MonkeyPatch) -> None:
+    def starved(*_: object, **__: object) -> None:
+        raise error
+
+    monkeypatch.setattr("batik_vector.command.checks.check_source", starved)
+    result = runner().invoke(cli, ["check", "any.toml"])
+    assert result.exit_code == 2
+    assert "more memory than there is" in result.stderr
