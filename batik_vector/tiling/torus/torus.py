@@ -17,6 +17,7 @@ import shapely
 from numpy.typing import NDArray
 
 from batik_vector.artwork import Geometries
+from batik_vector.errors import TooLargeError
 from batik_vector.geometry.ragged import Ragged
 from batik_vector.tiling.torus import overlay
 from batik_vector.units import STEPS_PER_MM
@@ -25,6 +26,10 @@ from batik_vector.values import frozen
 Steps = NDArray[np.int64]
 Lattice = tuple[tuple[int, int], tuple[int, int]]
 """Two translations in grid steps; the first or the second is parallel to its axis."""
+
+
+MAX_WRAPPED = 50_000_000
+"""Vertices that the translates of marks may come to: they are in memory all at once, some 100 bytes each."""
 
 
 @frozen
@@ -105,6 +110,9 @@ def wrap(
         lattice: the two translations that repeat them.
         window: the rectangle to fill, in grid steps.
         reach: in grid steps; half the breadth of a line, where its body counts.
+
+    Raises:
+        TooLargeError: where the translates have more vertices than fit in memory.
     """
     # What is empty lies nowhere.
     there = ~shapely.is_empty(marks)
@@ -112,6 +120,12 @@ def wrap(
     if not len(marks):
         return marks, names
     which, shift = translates(shapely.bounds(marks), lattice, window, reach)
+    total = int(shapely.get_num_coordinates(marks)[which].sum())
+    if total > MAX_WRAPPED:
+        raise TooLargeError(
+            f"marks that reach over so many repeats have {total:,} vertices in one of them, past the limit of "
+            f"{MAX_WRAPPED:,}: expected smaller marks, or a larger tile"
+        )
     return translate(marks[which], shift), names[which]
 
 

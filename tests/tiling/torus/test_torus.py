@@ -9,6 +9,7 @@ import shapely.affinity
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from batik_vector.errors import TooLargeError
 from batik_vector.tiling.torus.seams import joined, rolled, symmetric_difference
 from batik_vector.tiling.torus.torus import (
     Window,
@@ -178,3 +179,9 @@ def test_parts_are_found_however_deep_they_lie() -> None:
     parts, names = polygons_of(array(deep), np.array([7]))
     assert [part.area for part in parts] == [1]
     assert names.tolist() == [7]
+
+
+def test_a_mark_that_reaches_over_far_too_many_repeats_is_refused() -> None:
+    mark = np.array([shapely.Point(0, 0).buffer(500_000, quad_segs=1500)], dtype=object)
+    with pytest.raises(TooLargeError, match="vertices in one of them, past the limit"):
+        wrap(mark, np.zeros(1, np.intp), ((10_000, 0), (0, 10_000)), Window(0, 0, 10_000, 10_000))
