@@ -123,8 +123,8 @@ def wrap(
     total = int(shapely.get_num_coordinates(marks)[which].sum())
     if total > MAX_WRAPPED:
         raise TooLargeError(
-            f"marks that reach over so many repeats have {total:,} vertices in one of them, past the limit of "
-            f"{MAX_WRAPPED:,}: expected smaller marks, or a larger tile"
+            f"marks that reach over so many repeats have {total:,} vertices in one of them, past the "
+            f"limit of {MAX_WRAPPED:,}: expected smaller marks, or a larger tile"
         )
     return translate(marks[which], shift), names[which]
 
