@@ -11,8 +11,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from batik_vector.importing.matrix import parse_transform
 from batik_vector.importing.page import parse_px
+from batik_vector.importing.transforms import parse_transform
 from batik_vector.patterns import NUMBER, numbers_in
 from batik_vector.recipe.reading.lines import Lines
 from tools.house import PACKAGE, modules
@@ -90,8 +90,8 @@ READERS = """
 import contextlib
 from batik_vector.fields import parse_colour
 from batik_vector.importing.colours import colour_of
-from batik_vector.importing.matrix import parse_transform
-from batik_vector.importing.outlines import parse_path
+from batik_vector.importing.transforms import parse_transform
+from batik_vector.geometry.paths.data import parse_path
 from batik_vector.importing.page import parse_px
 from batik_vector.importing.paint import url_of
 from batik_vector.recipe.reading.limits import deep_key

@@ -37,7 +37,8 @@ FLOORS: Floors = _floors(
     "geometry",
     "artwork",
     "tiling export",
-    "recipe importing certificate",
+    "importing",
+    "recipe certificate",
     "compiling",
     "command",
     "__init__ __main__",
@@ -49,7 +50,7 @@ WINGS: dict[str, Floors] = {
     "tiling": _floors("layouts", "torus", "welding tossing", "symmetry cloth borders"),
     "geometry": _floors(
         "sampling outlines edge_snap",
-        "known work",
+        "known work paths",
         "ragged curves regions stretches inside",
         "bezier continuations maps",
         "coincidence",

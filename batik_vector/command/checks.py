@@ -22,8 +22,8 @@ from batik_vector.compiling.compiler import compile_recipe, inspect
 from batik_vector.errors import BatikError, ExportError, Fault, GeometryError, RecipeError
 from batik_vector.export import render, write_all_whole
 from batik_vector.export.provenance import read_provenance
+from batik_vector.geometry.paths.matrix import Matrix
 from batik_vector.importing.document import load
-from batik_vector.importing.matrix import Matrix
 from batik_vector.importing.overlay import laid_over
 from batik_vector.importing.svg import Reading, read_svg
 from batik_vector.recipe.loading import read_recipe

@@ -8,13 +8,12 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from batik_vector.geometry.paths.matrix import Matrix, times
+from batik_vector.geometry.paths.outline import EMPTY, Outline, bounds_of, joined
 from batik_vector.importing.document import Document, children, local, reference
-from batik_vector.importing.matrix import Matrix, times
 from batik_vector.importing.origins import transform_of
-from batik_vector.importing.outlines import EMPTY, Outline, joined
 from batik_vector.importing.page import Box, parse_px
 from batik_vector.importing.paint import EXPAND, url_of
-from batik_vector.importing.polylines import bounds_of
 from batik_vector.importing.shapes import SHAPES, outline_of
 from batik_vector.importing.styles import Style, Styles
 from batik_vector.values import frozen

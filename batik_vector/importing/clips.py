@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 
 from batik_vector.artwork import Geometries
 from batik_vector.errors import TooLargeError
+from batik_vector.geometry.paths.outline import Outline, joined
 from batik_vector.geometry.regions import polygonal
 from batik_vector.importing.clip_paths import Clip
 from batik_vector.importing.fills import filled, solid
 from batik_vector.importing.inks import Marks
-from batik_vector.importing.outlines import Outline, joined
 from batik_vector.importing.pens import Pen, bodies
 from batik_vector.importing.polylines import Lines
 from batik_vector.importing.scene import Shape

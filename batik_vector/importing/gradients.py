@@ -12,11 +12,12 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from batik_vector.geometry.paths.matrix import Matrix, inverse_of, moved, times
 from batik_vector.importing.colours import colour_of
 from batik_vector.importing.document import MAX_DEPTH, Document, children, local, reference
-from batik_vector.importing.matrix import Matrix, inverse_of, moved, parse_transform, times
 from batik_vector.importing.page import parse_px
 from batik_vector.importing.styles import share_of
+from batik_vector.importing.transforms import parse_transform
 from batik_vector.values import frozen
 
 Floats = NDArray[np.float64]

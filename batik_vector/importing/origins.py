@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from batik_vector.importing.matrix import IDENTITY, Matrix, parse_transform, times
+from batik_vector.geometry.paths.matrix import IDENTITY, Matrix, times
 from batik_vector.importing.page import parse_px
 from batik_vector.importing.styles import Style
+from batik_vector.importing.transforms import parse_transform
 
 _SHARES = ({"left": 0.0, "center": 0.5, "right": 1.0}, {"top": 0.0, "center": 0.5, "bottom": 1.0})
 _BOXES = ("", "view-box")

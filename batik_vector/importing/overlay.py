@@ -11,8 +11,8 @@ import re
 import shapely
 
 from batik_vector.artwork import Geometries
+from batik_vector.geometry.paths.matrix import Matrix
 from batik_vector.importing.document import INKSCAPE
-from batik_vector.importing.matrix import Matrix
 
 _END = re.compile(rb"</(?:[A-Za-z_][\w.-]*:)?svg\s*>\s*$")
 

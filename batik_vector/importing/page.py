@@ -10,8 +10,9 @@ import math
 import re
 import xml.etree.ElementTree as ET
 
+from batik_vector.geometry.paths.matrix import Matrix, times
 from batik_vector.importing.document import Document
-from batik_vector.importing.matrix import PX_PER_INCH, PX_PER_UNIT, Matrix, times
+from batik_vector.importing.transforms import PX_PER_INCH, PX_PER_UNIT
 from batik_vector.patterns import NUMBER
 from batik_vector.units import GRID_MM, format_mm
 from batik_vector.values import frozen

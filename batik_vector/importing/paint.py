@@ -6,10 +6,10 @@ import re
 import xml.etree.ElementTree as ET
 import zlib
 
+from batik_vector.geometry.paths.matrix import Matrix
 from batik_vector.importing.colours import colour_of
 from batik_vector.importing.document import MAX_DEPTH, Document, local, reference
 from batik_vector.importing.gradients import declared_on, gradient_of
-from batik_vector.importing.matrix import Matrix
 from batik_vector.importing.painting import Paint
 from batik_vector.importing.styles import Style, share_of
 

@@ -9,12 +9,13 @@ from collections.abc import Callable, Iterator
 import numpy as np
 import shapely
 
+from batik_vector.geometry.paths.matrix import Matrix, inverse_of, moved, spread, times
+from batik_vector.geometry.paths.outline import CURVE, Outline
 from batik_vector.importing.document import MAX_DEPTH, Document, children, local, reference
-from batik_vector.importing.matrix import Matrix, inverse_of, moved, parse_transform, spread, times
-from batik_vector.importing.outlines import CURVE, Outline
 from batik_vector.importing.page import Box, Page, fitted, parse_px, view_box
 from batik_vector.importing.paint import url_of
 from batik_vector.importing.styles import Style, share_of
+from batik_vector.importing.transforms import parse_transform
 from batik_vector.values import frozen
 
 MAX_CELLS = 10_000

@@ -11,7 +11,8 @@ import shapely
 from numpy.typing import NDArray
 
 from batik_vector.artwork import Geometries
-from batik_vector.importing.outlines import EMPTY, MOVE, Outline, box, ellipse, joined
+from batik_vector.geometry.paths.outline import EMPTY, MOVE, Outline, box, joined
+from batik_vector.geometry.paths.shapes import ellipse
 from batik_vector.importing.page import parse_px
 from batik_vector.importing.styles import Style
 from batik_vector.values import frozen

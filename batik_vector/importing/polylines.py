@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from batik_vector.errors import TooLargeError
-from batik_vector.importing.outlines import CONTROL, CURVE, LINE, MOVE, Outline
+from batik_vector.geometry.paths.cubics import bernstein, evaluated, needed, turns_of
+from batik_vector.geometry.paths.outline import CURVE, LINE, MOVE, Outline
 from batik_vector.units import STEPS_PER_MM
 from batik_vector.values import frozen
 
@@ -83,20 +84,6 @@ def flattened(outline: Outline, width: float, height: float, tolerance: float) -
     return Lines(places[order], np.append(begins, len(order)).astype(np.intp))
 
 
-def bounds_of(outline: Outline) -> tuple[float, float, float, float]:
-    """Return how far an outline reaches: left, lower, right and upper bound in its own units."""
-    end = np.flatnonzero(outline.kinds == CURVE)
-    control = outline.points[end[:, None] + np.array([-3, -2, -1, 0])]
-    plain = outline.points[outline.kinds != CONTROL]
-    reached = []
-    for axis in (0, 1):
-        curved = control[:, :, axis]
-        turns = _bernstein(curved[:, None, :], _turns(curved))
-        reached.append(np.concatenate([plain[:, axis], turns.ravel()]))
-    x, y = reached
-    return float(x.min()), float(y.min()), float(x.max()), float(y.max())
-
-
 def snapped(points: Points, width: float, height: float) -> Points:
     """Return points, shape (n, 2), moved to the page's edges and to the grid where they lie all but there."""
     points = points.copy()
@@ -123,13 +110,9 @@ def _meet(points: Points, kinds: NDArray[np.uint8]) -> None:
 def _divided(
     control: Points, meetings: Meetings, width: float, height: float, tolerance: float
 ) -> tuple[Indices, Points, Points]:
-    """Divide cubics evenly between their ends and meetings: (cubic, parameter, place), without the starts.
-
-    Wang's bound: n pieces are off by at most max|P_i − 2·P_{i+1} + P_{i+2}|·3/(4·n²).
-    """
+    """Divide cubics evenly between their ends and meetings: (cubic, parameter, place), without the starts."""
     cubics = np.arange(len(control))
-    bend = control[:, :-2] - 2 * control[:, 1:-1] + control[:, 2:]
-    need = np.sqrt(0.75 * np.hypot(bend[..., 0], bend[..., 1]).max(axis=1, initial=0.0) / tolerance)
+    need = needed(control, tolerance)
     ends = control[:, [0, 3]]
     on_edge = ((ends == 0.0) | (ends == np.array([width, height]))).any(axis=(1, 2))
     on_edge[meetings.cubic[meetings.crosses]] = True
@@ -153,7 +136,7 @@ def _divided(
     span = np.repeat(np.arange(len(owner)), pieces)
     rank = np.arange(len(span)) - np.repeat(np.cumsum(pieces) - pieces, pieces) + 1
     at = start[span] + (stop - start)[span] * (rank / pieces[span])
-    found = _evaluated(control[owner[span]], at)
+    found = evaluated(control[owner[span]], at)
     last = np.cumsum(pieces) - 1
     at[last], found[last] = stop, place
     return owner[span], at, found
@@ -167,7 +150,7 @@ def _meetings(control: Points, width: float, height: float, tolerance: float) ->
             at = control[:, :, axis] - edge
             which = np.flatnonzero((at.min(axis=1) <= tolerance) & (at.max(axis=1) >= -tolerance))
             own, t, crosses = _roots(at[which], tolerance)
-            place = _evaluated(control[which[own]], t)
+            place = evaluated(control[which[own]], t)
             place[crosses | (np.abs(place[:, axis] - edge) <= SNAP_MM), axis] = edge
             owners.append(which[own])
             params.append(t)
@@ -182,8 +165,8 @@ def _roots(coefficients: Points, tolerance: float) -> tuple[Indices, Points, NDA
 
     They change their sign there, or else have an extreme no further than a tolerance from it.
     """
-    t = _turns(coefficients)
-    value = _bernstein(coefficients[:, None, :], t)
+    t = turns_of(coefficients)
+    value = bernstein(coefficients[:, None, :], t)
     # What begins or ends on the edge does not cross it there, and what turns back at it not at all.
     sign = np.where(np.abs(value) <= SNAP_MM, 0, np.sign(value))
     last = np.maximum.accumulate(np.where(sign != 0, np.arange(t.shape[1]), 0), axis=1)
@@ -193,7 +176,7 @@ def _roots(coefficients: Points, tolerance: float) -> tuple[Indices, Points, NDA
     rising = value[own, since] < 0
     for _ in range(HALVINGS):
         middle = (low + high) / 2
-        below = (_bernstein(coefficients[own], middle) < 0) == rising
+        below = (bernstein(coefficients[own], middle) < 0) == rising
         low, high = np.where(below, middle, low), np.where(below, high, middle)
     rises = np.minimum(np.abs(value - value[:, :1]), np.abs(value - value[:, -1:])) > LEAST_RISE_MM
     turns, which = np.nonzero((np.abs(value) <= tolerance) & rises)
@@ -202,29 +185,3 @@ def _roots(coefficients: Points, tolerance: float) -> tuple[Indices, Points, NDA
         np.concatenate([(low + high) / 2, t[turns, which]]),
         np.repeat([True, False], [len(own), len(turns)]),
     )
-
-
-def _turns(coefficients: Points) -> Points:
-    """Return 0, where polynomials in Bernstein form, shape (m, 4), turn back, and 1, ascending: shape (m, 4).
-
-    Where they turn back in fewer places, 0 stands for them.
-    """
-    p, q, r = np.diff(coefficients, axis=1).T
-    # The derivative is a·t² + 2·b·t + p, a third of it.
-    a, b = p - 2 * q + r, q - p
-    with np.errstate(divide="ignore", invalid="ignore"):
-        k = -(b + np.copysign(np.sqrt(b * b - a * p), b))
-        found = np.stack([k / a, p / k], axis=1)
-    found[~((found > 0) & (found < 1))] = 0.0
-    t = np.concatenate([np.zeros((len(p), 1)), found, np.ones((len(p), 1))], axis=1)
-    return np.sort(t, axis=1)
-
-
-def _bernstein(values: Points, t: Points) -> Points:
-    a, b, c, d = np.moveaxis(values, -1, 0)
-    s = 1 - t
-    return np.asarray(s * s * (s * a + 3 * t * b) + t * t * (3 * s * c + t * d))
-
-
-def _evaluated(control: Points, t: Points) -> Points:
-    return np.column_stack([_bernstein(control[:, :, 0], t), _bernstein(control[:, :, 1], t)])

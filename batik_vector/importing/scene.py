@@ -5,10 +5,10 @@ from __future__ import annotations
 import xml.etree.ElementTree as ET
 from dataclasses import replace
 
+from batik_vector.geometry.paths.matrix import Matrix
+from batik_vector.geometry.paths.outline import Outline
 from batik_vector.importing.clip_paths import Clip
 from batik_vector.importing.gradients import Gradient
-from batik_vector.importing.matrix import Matrix
-from batik_vector.importing.outlines import Outline
 from batik_vector.importing.painting import Paint
 from batik_vector.importing.patterns import Pattern
 from batik_vector.importing.pens import Pen

@@ -6,8 +6,10 @@ import xml.etree.ElementTree as ET
 
 import numpy as np
 
+from batik_vector.geometry.paths.data import parse_path
+from batik_vector.geometry.paths.outline import EMPTY, Outline, polyline
+from batik_vector.geometry.paths.shapes import ellipse, rectangle
 from batik_vector.importing.document import local
-from batik_vector.importing.outlines import EMPTY, Outline, ellipse, parse_path, polyline, rectangle
 from batik_vector.importing.page import parse_px
 from batik_vector.patterns import numbers_in
 

@@ -17,17 +17,18 @@ import numpy as np
 
 from batik_vector.artwork import Artwork, Cell, DropAxis, RawArtwork
 from batik_vector.errors import GeometryError, TooLargeError
+from batik_vector.geometry.paths.matrix import Matrix, inverse_of, times
+from batik_vector.geometry.paths.outline import CURVE, Outline, joined
 from batik_vector.importing.bodies import bodies_on_rim
 from batik_vector.importing.clips import clipped
 from batik_vector.importing.document import Document, DrawingError, children, load, local, parse
 from batik_vector.importing.inks import Marks, layers_of, painted
-from batik_vector.importing.matrix import PX_PER_INCH, Matrix, inverse_of, times
-from batik_vector.importing.outlines import CURVE, Outline, joined
 from batik_vector.importing.page import Page
 from batik_vector.importing.painting import Bodies
 from batik_vector.importing.polylines import Lines, flattened
 from batik_vector.importing.scene import Shape
 from batik_vector.importing.tilings import drawn
+from batik_vector.importing.transforms import PX_PER_INCH
 from batik_vector.tiling.symmetry.repeats import parse_repeat
 from batik_vector.units import STEPS_PER_MM, format_mm
 from batik_vector.values import frozen

@@ -7,10 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from batik_vector.geometry.paths.matrix import inverse_of, moved, spread, times
+from batik_vector.geometry.paths.outline import box
 from batik_vector.importing.clip_paths import Clip, Part
 from batik_vector.importing.document import Document, DrawingError, local, named
-from batik_vector.importing.matrix import inverse_of, moved, spread, times
-from batik_vector.importing.outlines import box
 from batik_vector.importing.page import MM_PER_PX, Page, page_of
 from batik_vector.importing.paint import EXPAND
 from batik_vector.importing.patterns import MAX_CELLS, Pattern, fills_page

@@ -12,6 +12,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from batik_vector.geometry.paths.matrix import IDENTITY, Matrix, spread, times
+from batik_vector.geometry.paths.outline import Outline, box
 from batik_vector.importing.clip_paths import MAX_REACH_MM, Clip, ClipPaths, Part, Space, box_of
 from batik_vector.importing.document import (
     MAX_DEPTH,
@@ -22,9 +24,7 @@ from batik_vector.importing.document import (
     reference,
 )
 from batik_vector.importing.layer_names import layer_of
-from batik_vector.importing.matrix import IDENTITY, Matrix, spread, times
 from batik_vector.importing.origins import transform_of
-from batik_vector.importing.outlines import Outline, box
 from batik_vector.importing.page import Box, Page, fitted, parse_px, view_box
 from batik_vector.importing.paint import EXPAND, look_of, paint_of
 from batik_vector.importing.painting import Paint

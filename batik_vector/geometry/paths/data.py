@@ -9,37 +9,18 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from itertools import compress
 
 import numpy as np
 from numpy.typing import NDArray
 
-from batik_vector.importing.matrix import Matrix, moved
+from batik_vector.geometry.paths.outline import CONTROL, CURVE, EMPTY, LINE, MOVE, Outline
+from batik_vector.geometry.sampling import Points
 from batik_vector.patterns import NUMBER, numbers_in
-from batik_vector.values import frozen
 
-Points = NDArray[np.float64]
-MOVE, LINE, CONTROL, CURVE = range(4)
-"""What a point is: where a subpath begins, the end of a line, a handle, the end of a cubic Bézier, whose
-two handles stand before it."""
 MAX_ARC = math.pi / 8
 
-
-@frozen(eq=False)
-class Outline:
-    """Subpaths: ``points`` of shape (n, 2), ``kinds`` of shape (n,), ``closed`` of one for each MOVE."""
-
-    points: Points
-    kinds: NDArray[np.uint8]
-    closed: NDArray[np.bool_]
-
-    def moved(self, matrix: Matrix) -> Outline:
-        """Return the outline under an affine map."""
-        return replace(self, points=moved(self.points, matrix))
-
-
-EMPTY = Outline(np.empty((0, 2)), np.empty(0, np.uint8), np.empty(0, bool))
 
 _COMMAND = re.compile(r"([MmZzLlHhVvCcSsQqTtAa])([^MmZzLlHhVvCcSsQqTtAa]*)")
 _TOKEN = re.compile(rf"{NUMBER}|[^\s,]")
@@ -321,67 +302,10 @@ def _unit_arc(first: float, swept: float) -> Points:
     return np.stack([on[:-1] + along[:-1], on[1:] - along[1:], on[1:]], axis=1)
 
 
-def polyline(points: Points, closed: bool) -> Outline:
-    """Return points, shape (n, 2), joined by lines."""
-    if len(points) < 2:
-        return EMPTY
-    kinds = np.full(len(points), LINE, np.uint8)
-    kinds[0] = MOVE
-    return Outline(points, kinds, np.array([closed]))
-
-
-def box(x: float, y: float, width: float, height: float) -> Outline:
-    """Return an upright rectangle."""
-    return polyline(np.array([[x, y], [x + width, y], [x + width, y + height], [x, y + height]]), True)
-
-
-def ellipse(cx: float, cy: float, rx: float, ry: float) -> Outline:
-    """Return an ellipse, its four outermost points exact."""
-    return _drawn(
-        [("M", [cx + rx, cy])]
-        + [
-            ("A", [rx, ry, 0, 0, 1, x, y])
-            for x, y in ((cx, cy + ry), (cx - rx, cy), (cx, cy - ry), (cx + rx, cy))
-        ]
-    )
-
-
-def rectangle(x: float, y: float, width: float, height: float, rx: float, ry: float) -> Outline:
-    """Return a rectangle, its corners rounded by radii above zero."""
-    if rx <= 0 or ry <= 0:
-        return box(x, y, width, height)
-    right, low = x + width, y + height
-    rx, ry = min(rx, width / 2), min(ry, height / 2)
-    corner = [rx, ry, 0.0, 0.0, 1.0]
-    return _drawn(
-        [
-            ("M", [x + rx, y]),
-            ("L", [right - rx, y]),
-            ("A", [*corner, right, y + ry]),
-            ("L", [right, low - ry]),
-            ("A", [*corner, right - rx, low]),
-            ("L", [x + rx, low]),
-            ("A", [*corner, x, low - ry]),
-            ("L", [x, y + ry]),
-            ("A", [*corner, x + rx, y]),
-        ]
-    )
-
-
-def _drawn(commands: Sequence[tuple[str, Sequence[float]]]) -> Outline:
+def drawn(commands: Sequence[tuple[str, Sequence[float]]]) -> Outline:
+    """Return the outline of one closed subpath: commands with their numbers, without the Z at the end."""
     pen = _Pen()
     for letter, numbers in commands:
         pen.command(letter, np.array([numbers], float))
     pen.command("Z", np.empty(0))
     return pen.outline()
-
-
-def joined(outlines: Sequence[Outline]) -> Outline:
-    """Return several outlines as one."""
-    if not outlines:
-        return EMPTY
-    return Outline(
-        np.concatenate([each.points for each in outlines]),
-        np.concatenate([each.kinds for each in outlines]),
-        np.concatenate([each.closed for each in outlines]),
-    )

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from batik_vector.importing.outlines import parse_path
+from batik_vector.geometry.paths.data import parse_path
 
 numbers = st.integers(-500, 500).map(lambda n: n / 8)
 steps = st.lists(
