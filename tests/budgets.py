@@ -25,7 +25,7 @@ import shapely
 
 from batik_vector.compiling import placements
 from batik_vector.geometry.curves import Circle
-from batik_vector.recipe import motif
+from batik_vector.recipe import figures
 from batik_vector.recipe.model import InkSpec, Placement, Recipe
 from batik_vector.recipe.motif import Element, Motif, Rosette
 from batik_vector.tiling.layouts import Lattice
@@ -181,8 +181,8 @@ def peak_bytes(call: Callable[[], object]) -> int:
 def cold() -> None:
     """Forget what earlier compilations drew."""
     placements._kept.clear()
-    motif._copied.cache_clear()
-    motif._alone.cache_clear()
+    figures._copied.cache_clear()
+    figures._alone.cache_clear()
 
 
 PITCH_MM = 10.0

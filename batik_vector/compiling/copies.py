@@ -14,7 +14,8 @@ from batik_vector.artwork import Geometries, Ink, Overlap
 from batik_vector.errors import RecipeError, UnknownNameError
 from batik_vector.geometry.maps.affines import Affines
 from batik_vector.geometry.outlines import Index
-from batik_vector.recipe.motif import Element, Figure, Treatment
+from batik_vector.recipe.figures import Figure
+from batik_vector.recipe.motif import Element, Treatment
 from batik_vector.recipe.placement import Placement
 from batik_vector.tiling.welding.congruent import Areas, polygons
 from batik_vector.tiling.welding.copies_on_grid import Spread, joined, landed, spreads

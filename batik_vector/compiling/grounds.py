@@ -13,7 +13,8 @@ from batik_vector.artwork import Cell, Geometries, Ink, Overlap
 from batik_vector.errors import GeometryError
 from batik_vector.geometry.maps.affine import Affine
 from batik_vector.geometry.sampling import Array
-from batik_vector.recipe.motif import Figure, Motif, Treatment, draw
+from batik_vector.recipe.figures import Figure, draw
+from batik_vector.recipe.motif import Motif, Treatment
 from batik_vector.recipe.placement import Placement
 from batik_vector.tiling.layouts import Clear, Stripes, Toss
 from batik_vector.tiling.symmetry.orbits import Orbit

@@ -18,8 +18,9 @@ from batik_vector.geometry.ifs import distinct
 from batik_vector.geometry.maps.affine import Affine
 from batik_vector.geometry.maps.affines import ONE, Affines
 from batik_vector.geometry.sampling import Array, Points
+from batik_vector.recipe.figures import Figure, draw
 from batik_vector.recipe.model import Recipe
-from batik_vector.recipe.motif import Figure, Motif, Treatment, draw
+from batik_vector.recipe.motif import Motif, Treatment
 from batik_vector.recipe.placement import Placement
 from batik_vector.tiling.layouts import Bend, Stripes, Toss
 from batik_vector.tiling.symmetry.orbits import TRIVIAL, Orbit

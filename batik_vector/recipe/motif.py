@@ -9,22 +9,13 @@ from __future__ import annotations
 
 import enum
 import functools
-from collections.abc import Callable
 from dataclasses import field, fields
 from typing import Annotated, TypeAlias
 
-import numpy as np
-import shapely
-
-from batik_vector.errors import GeometryError, TooLargeError, shortened, unknown_name
+from batik_vector.errors import GeometryError, unknown_name
 from batik_vector.fields import Between, Length, OneOf, Says, check
-from batik_vector.geometry import work
-from batik_vector.geometry.curves import CURVES, Circle, Curve, Hypocycloid, Petal, Rose, Superellipse, trace
-from batik_vector.geometry.ifs import distinct
-from batik_vector.geometry.maps.affine import IDENTITY, Affine
-from batik_vector.geometry.maps.affines import Affines, turns
-from batik_vector.geometry.regions import FillRule, oriented, settle
-from batik_vector.geometry.sampling import Array, Geometries, Points
+from batik_vector.geometry.curves import CURVES, Circle, Curve, Hypocycloid, Petal, Rose, Superellipse
+from batik_vector.geometry.regions import FillRule
 from batik_vector.values import frozen
 
 
@@ -66,6 +57,10 @@ class Dress:
 
     def __post_init__(self) -> None:
         check(self)
+
+
+Ring: TypeAlias = tuple[int, float, float, float, float, bool]
+"""Count, radius, turn, arc, spin and mirror of an element: what says where its curve is drawn."""
 
 
 @frozen(kw_only=True)
@@ -256,120 +251,3 @@ def most_contours(motif: Motif) -> tuple[str, int]:
     else:
         asked = {f"elements[{number}].contours": part.contours for number, part in enumerate(motif.parts())}
     return max(asked.items(), key=lambda each: each[1])
-
-
-@frozen
-class Figure:
-    """An element as geometry, in motif units: ``areas`` filled, ``lines`` its centre lines."""
-
-    element: Element
-    areas: Geometries
-    lines: Geometries
-
-
-def draw(motif: Motif, tolerance: float | Callable[[Points], Array]) -> list[Figure]:
-    """Sample and settle every element of a motif.
-
-    Args:
-        motif: in its own units.
-        tolerance: in motif units; or a function of places in the motif, shape (n, 2) → (n,).
-
-    Returns:
-        One figure per element, bottom first. Line and region of an element share their vertices.
-
-    Raises:
-        TooLargeError: where a curve crosses itself too often to be filled.
-    """
-    return [_named(element, tolerance) for element in motif.parts()]
-
-
-def _named(element: Element, tolerance: float | Callable[[Points], Array]) -> Figure:
-    try:
-        return _draw(element, tolerance)
-    except TooLargeError as error:
-        known = f'element "{shortened(element.name)}"' if element.name else "an element without a name"
-        contours = f", contours = {element.contours}" if element.contours > 1 else ""
-        raise TooLargeError(f"{known} ({type(element.curve).__name__.lower()}{contours}): {error}") from None
-
-
-def _draw(element: Element, tolerance: float | Callable[[Points], Array]) -> Figure:
-    if not callable(tolerance):
-        look = element.curve, element.fill, element.contours, tolerance
-        return Figure(element, *_copied(look, element.ring))
-    copies = copies_of(*element.ring)
-
-    def everywhere(points: Points) -> Array:
-        return np.asarray(np.min([tolerance(images) for images in copies.at(points)], axis=0))
-
-    areas, lines = _outlined(element.curve, element.fill, element.contours, everywhere)
-    reach = float(np.min(everywhere(shapely.get_coordinates(lines))))
-    return Figure(element, *_turned(areas, lines, copies, reach))
-
-
-Look: TypeAlias = tuple[Curve, FillRule, int, float]
-"""What a curve's geometry hangs on: the curve, its fill rule, its contours, the tolerance."""
-
-
-Ring: TypeAlias = tuple[int, float, float, float, float, bool]
-"""The arguments of :func:`copies_of`."""
-
-
-def copies_of(count: int, radius: float, turn: float, arc: float, spin: float, mirror: bool) -> Affines:
-    """Return where the copies of an element are drawn: see :class:`Element`."""
-    shift = Affine.translation((radius, 0)) @ Affine.turn(spin)
-    turned = turns([turn + arc * k / count for k in range(count)])
-    return (turned.after(Affines.of([IDENTITY, Affine.mirror(0)])) if mirror else turned) @ shift
-
-
-@functools.lru_cache(maxsize=128)
-def _copied(look: Look, ring: Ring) -> tuple[Geometries, Geometries]:
-    """Return areas and lines of a curve and its copies. Kept: who turns one knob draws the rest again."""
-    areas, lines = _turned(*_alone(look), copies_of(*ring), look[-1])
-    for marks in (areas, lines):
-        marks.flags.writeable = False
-    return areas, lines
-
-
-@functools.lru_cache(maxsize=128)
-def _alone(look: Look) -> tuple[Geometries, Geometries]:
-    return _outlined(*look)
-
-
-def _outlined(
-    curve: Curve, fill: FillRule, contours: int, tolerance: float | Callable[[Points], Array]
-) -> tuple[Geometries, Geometries]:
-    """Return the region and the centre lines of a curve."""
-    traced = trace(curve, tolerance)
-    scales = [k / contours for k in range(contours, 0, -1)]
-    lines = np.array(
-        [shapely.linestrings(strand * k) for strand in traced.strands for k in scales], dtype=object
-    )
-    areas = np.empty(0, dtype=object)
-    if traced.rings:
-        region = settle(traced.rings, fill)
-        areas = _bands([Affine.scale(k).apply(region) for k in scales])
-    return areas, lines
-
-
-def _turned(
-    areas: Geometries, lines: Geometries, copies: Affines, reach: float
-) -> tuple[Geometries, Geometries]:
-    """Return the copies of an element that differ."""
-    kept = distinct(copies, [np.concatenate([areas, lines])], reach)
-    return kept.apply(areas), kept.apply(lines)
-
-
-def _bands(nested: list[Geometries]) -> Geometries:
-    """Return every other band between nested contours, the outermost filled."""
-    if len(nested) == 1:
-        return nested[0]
-    # Two by two, and these two by two again: one after another, each would be overlaid with all before it.
-    total = np.array([shapely.union_all(part) for part in nested], dtype=object)
-    while len(total) > 1:
-        pairs = len(total) // 2
-        work.spend(float(shapely.get_num_coordinates(total).sum()))
-        joined = shapely.symmetric_difference(total[: 2 * pairs : 2], total[1 : 2 * pairs : 2])
-        total = np.concatenate([joined, total[2 * pairs :]])
-    # Where bands meet in a point a hair of line may be left.
-    parts = shapely.get_parts(total)
-    return oriented(parts[shapely.get_type_id(parts) == shapely.GeometryType.POLYGON])

@@ -24,7 +24,7 @@ from batik_vector.export import write_artwork
 from batik_vector.fields import fitting
 from batik_vector.geometry.curves import CURVES, Curve, trace
 from batik_vector.geometry.maps.flame import FlameMap
-from batik_vector.recipe import motif
+from batik_vector.recipe import figures
 from batik_vector.recipe.loading import load_recipe, read_recipe
 from batik_vector.recipe.model import Placement, Recipe
 from batik_vector.recipe.motif import Flower, Motif
@@ -93,7 +93,7 @@ CURVE_AT = [
     for home in dict.fromkeys(home for curve in CURVES.values() for home in curve.__mro__)
     if "at" in vars(home) and home is not Curve
 ]
-TRACED, SET_DOWN = (motif, "trace"), (placements, "set_down")
+TRACED, SET_DOWN = (figures, "trace"), (placements, "set_down")
 
 
 @pytest.fixture(autouse=True)

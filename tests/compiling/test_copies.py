@@ -11,7 +11,8 @@ from batik_vector.compiling.copies import Laid, Look, set_down, sized
 from batik_vector.geometry.curves import Circle, Superellipse
 from batik_vector.geometry.maps.affine import Affine
 from batik_vector.geometry.maps.affines import Affines
-from batik_vector.recipe.motif import Element, Rosette, Treatment, draw
+from batik_vector.recipe.figures import draw
+from batik_vector.recipe.motif import Element, Rosette, Treatment
 from batik_vector.recipe.placement import Placement
 from batik_vector.tiling.welding.congruent import polygons
 from batik_vector.tiling.welding.sheets import Sheet

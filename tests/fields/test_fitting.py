@@ -49,7 +49,8 @@ from batik_vector.errors import GeometryError
 from batik_vector.export import FORMATS, format_of, render, write_page
 from batik_vector.geometry.curves import CURVES, Circle, Curve, FunctionCurve, Polar, Polygon, trace
 from batik_vector.geometry.maps import VARIATIONS
-from batik_vector.recipe.motif import MOTIFS, Core, Dress, Leaf, Petals, Pistil, Treatment, draw
+from batik_vector.recipe.figures import draw
+from batik_vector.recipe.motif import MOTIFS, Core, Dress, Leaf, Petals, Pistil, Treatment
 from batik_vector.recipe.outputs import OUTPUTS
 from batik_vector.tiling.layouts import LAYOUTS, Lattice, MapSpec, Ring, Spot, Term
 from batik_vector.tiling.symmetry.machine_fit import Fit

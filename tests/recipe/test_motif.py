@@ -9,17 +9,8 @@ import shapely
 from batik_vector.errors import GeometryError
 from batik_vector.geometry.curves import Circle, Hypocycloid, Rose, Spiral, Star, Superellipse, trace
 from batik_vector.geometry.regions import FillRule, settle
-from batik_vector.recipe.motif import (
-    Core,
-    Element,
-    Flower,
-    Leaf,
-    Petals,
-    Pistil,
-    Rosette,
-    draw,
-    most_contours,
-)
+from batik_vector.recipe.figures import draw
+from batik_vector.recipe.motif import Core, Element, Flower, Leaf, Petals, Pistil, Rosette, most_contours
 from tests.budgets import counted
 
 TOLERANCE = 1e-3
