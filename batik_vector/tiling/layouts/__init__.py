@@ -11,7 +11,16 @@ from typing import Annotated, TypeAlias
 
 from batik_vector.fields import OneOf
 from batik_vector.tiling.layouts.base import Bend, Layout, Pair
-from batik_vector.tiling.layouts.copies import Free, Lattice, Mirror, Ring, RosetteLayout, Single, Spot
+from batik_vector.tiling.layouts.copies import (
+    Free,
+    Lattice,
+    Mirror,
+    Places,
+    Ring,
+    RosetteLayout,
+    Single,
+    Spot,
+)
 from batik_vector.tiling.layouts.grounds import Clear, Stripes, Toss
 from batik_vector.tiling.layouts.systems import Julian, MapSpec, System, Term
 
@@ -22,6 +31,7 @@ LAYOUTS: dict[str, type[Layout]] = {
     "mirror": Mirror,
     "rosette": RosetteLayout,
     "free": Free,
+    "places": Places,
     "lattice": Lattice,
     "toss": Toss,
     "stripes": Stripes,
@@ -42,6 +52,7 @@ __all__ = [
     "MapSpec",
     "Mirror",
     "Pair",
+    "Places",
     "Ring",
     "RosetteLayout",
     "Single",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, TypeAlias
 
 import numpy as np
 
@@ -143,6 +143,38 @@ class Free(Layout):
         if not self.spots:
             raise GeometryError("a free layout needs at least one spot")
         return Affines.of([spot.affine() for spot in self.spots])
+
+
+_Number: TypeAlias = Annotated[float, Between(-1e4, 1e4)]
+Spots: TypeAlias = tuple[tuple[_Number, ...], ...]
+"""Places (x, y) or (x, y, turn in degrees), in motif units."""
+
+
+@frozen(kw_only=True)
+class Places(Layout):
+    """Copies at a list of places, each [x, y] or [x, y, turn]: one motif as often as a drawing shows it."""
+
+    at: Annotated[Spots, Says("[x, y] or [x, y, turn] of each copy, in motif units and degrees")] = ()
+    mirrored: Annotated[Spots, Says("of each copy that is mirrored at the x axis first")] = ()
+
+    def __post_init__(self) -> None:
+        check(self)
+        for key, spots in (("at", self.at), ("mirrored", self.mirrored)):
+            for number, spot in enumerate(spots):
+                if len(spot) not in (2, 3):
+                    raise GeometryError(
+                        f"{key}[{number}] has {len(spot)} numbers, expected [x, y] or [x, y, turn]"
+                    )
+        if not (self.at or self.mirrored):
+            raise GeometryError("at is empty, and so is mirrored: expected at least one place")
+
+    def images(self, cell: tuple[float, float]) -> Affines | Bend:
+        """One image per place, those that are mirrored last."""
+        spots = np.array([(*spot, 0.0)[:3] for spot in (*self.at, *self.mirrored)], np.float64)
+        turned = turns(spots[:, 2].tolist()).linear.copy()
+        # The mirrored ones change the sign of y before they are turned.
+        turned[len(self.at) :, 1::2] *= -1.0
+        return Affines(np.hstack([turned, spots[:, :2]]))
 
 
 @frozen(kw_only=True)

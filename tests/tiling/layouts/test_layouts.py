@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 import shapely
@@ -17,7 +19,7 @@ from batik_vector.geometry.maps.affines import Affines
 from batik_vector.recipe.model import Placement, Recipe
 from batik_vector.recipe.motif import Element
 from batik_vector.recipe.motif import Rosette as Figure
-from batik_vector.tiling.layouts import Bend, RosetteLayout
+from batik_vector.tiling.layouts import Bend, Places, RosetteLayout
 from batik_vector.tiling.symmetry.repeats import TileSpec
 
 quick = settings(max_examples=60, deadline=None, derandomize=True)
@@ -94,3 +96,29 @@ def test_a_motif_at_the_centre_is_drawn_once() -> None:
     areas = drawn(RosetteLayout(group="D5", shift=(0.0, 0.0)), Element(curve=Circle(1.0))).layers[0].areas
     assert len(areas) == 1
     assert shapely.get_num_coordinates(areas)[0] < 120
+
+
+def test_places_say_where_each_copy_lies() -> None:
+    images = Places(at=((2.0, 3.0), (5.0, 4.0, 90.0)), mirrored=((8.0, 3.0, 30.0),)).images((1.0, 1.0))
+    assert not isinstance(images, Bend)
+    expected = [
+        Affine.translation((2, 3)),
+        Affine.translation((5, 4)) @ Affine.turn(90),
+        Affine.translation((8, 3)) @ Affine.turn(30) @ Affine.mirror(0),
+    ]
+    for image, wanted in zip(images, expected, strict=True):
+        assert image.row == pytest.approx(wanted.row)
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({}, "at is empty, and so is mirrored: expected at least one place"),
+        ({"at": ((1.0,),)}, r"at\[0\] has 1 numbers, expected \[x, y\] or \[x, y, turn\]"),
+        ({"at": ((1.0, 2.0),), "mirrored": ((1.0, 2.0, 3.0, 4.0),)}, r"mirrored\[0\] has 4 numbers"),
+        ({"at": ((1.0, 1e9),)}, "expected -10000 to 10000"),
+    ],
+)
+def test_places_that_are_none_are_refused(given: dict[str, Any], words: str) -> None:
+    with pytest.raises(GeometryError, match=words):
+        Places(**given)
