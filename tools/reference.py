@@ -26,6 +26,7 @@ from batik_vector.geometry.curves import CURVES
 from batik_vector.geometry.maps import VARIATIONS
 from batik_vector.geometry.regions import FillRule
 from batik_vector.recipe.border import BorderSpec, Corner, Ends, Facing, RailSpec
+from batik_vector.recipe.drawing import Dressing, Svg
 from batik_vector.recipe.model import ClothSpec, InkSpec, Placement, Recipe, YardageSpec
 from batik_vector.recipe.motif import Core, Dress, Element, Flower, Leaf, Petals, Pistil, Rosette, Treatment
 from batik_vector.recipe.outputs import OUTPUTS
@@ -224,6 +225,8 @@ def page() -> str:
         lines += section(f"flower.{key}", part, 4, look)
     lines += section('kind = "rosette"', Rosette)
     lines += section("rosette.elements", Element, 4, look)
+    lines += section('kind = "svg"', Svg)
+    lines += section("svg.dress", Dressing, 4)
     lines += ["### The look of every element", ""]
     lines += table(Dress)
     lines += words("treatment", Treatment)

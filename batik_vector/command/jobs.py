@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import os
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Container, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
@@ -17,6 +17,7 @@ from batik_vector.artwork import Artwork, Layer, Page
 from batik_vector.compiling.compiler import compile_cloth, compile_recipe
 from batik_vector.errors import ExportError, Fault, GeometryError, MissingLibraryError, RecipeError, SeamError
 from batik_vector.export import FORMATS, write_all_whole, write_page
+from batik_vector.recipe.drawing import Svg
 from batik_vector.recipe.loading import load_recipe, located
 from batik_vector.recipe.model import OutputSpec, Recipe
 from batik_vector.recipe.outputs import OUTPUTS, Piece, PngOutput
@@ -26,6 +27,7 @@ from batik_vector.units import STEPS_PER_MM
 from batik_vector.values import frozen
 
 if TYPE_CHECKING:
+    from batik_vector.importing.drawing.marks import Drawing
     from batik_vector.tiling.cloth.yardage import Yardage
 
 
@@ -73,6 +75,7 @@ def planned(jobs: Sequence[Job], folder: Path, formats: Sequence[str] = ()) -> l
     plans: list[Job] = []
     faults: list[Fault] = []
     taken: dict[str, Job] = {}
+    drawings = {each.path for job in jobs for _, each in _drawings(job.recipe)}
     for job in jobs:
         files = []
         for output in _outputs(job.recipe, formats):
@@ -85,7 +88,7 @@ def planned(jobs: Sequence[Job], folder: Path, formats: Sequence[str] = ()) -> l
                 faults.append(_twice(path, taken[place], job, output))
                 continue
             taken[place] = job
-            _check_place(path, job)
+            _check_place(path, job, drawings)
             files.append((path, output))
         plans.append(Job(job.source, job.recipe, job.overrides, tuple(files)))
     if faults:
@@ -176,7 +179,16 @@ def _check_folder(folder: Path) -> None:
         raise ExportError(f"{there} may not be written to")
 
 
-def _check_place(path: Path, job: Job) -> None:
+def _drawings(recipe: Recipe) -> Iterator[tuple[str, Drawing]]:
+    """Yield the drawings of a recipe's motifs, with the motifs' names."""
+    for name, motif in recipe.motif.items():
+        if isinstance(motif, Svg) and motif.drawing is not None:
+            yield name, motif.drawing
+
+
+def _check_place(path: Path, job: Job, drawings: Container[str]) -> None:
+    if os.path.realpath(path) in drawings:
+        raise ExportError(f"{path} would replace the drawing that it is made of: choose a folder with -o")
     if path.is_symlink() or path.is_dir():
         what = "a folder" if path.is_dir() and not path.is_symlink() else "a symbolic link"
         raise ExportError(f"{path} could not be written: it is {what}")
@@ -358,6 +370,7 @@ def warnings(recipe: Recipe, artwork: Artwork) -> list[str]:
     used = {name for _, placement in recipe.placements() for name in placement.motifs}
     drawn = {layer.ink.name for layer in artwork.layers}
     found = [f'motif "{name}" is placed nowhere' for name in recipe.motif if name not in used]
+    found += [f'motif "{name}": {note}' for name, each in _drawings(recipe) for note in each.notes]
     if not recipe.border:
         found += [f'ink "{name}" draws nothing' for name in recipe.ink if name not in drawn]
     for number, output in enumerate(recipe.output):

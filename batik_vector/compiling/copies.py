@@ -15,7 +15,7 @@ from batik_vector.errors import RecipeError, UnknownNameError
 from batik_vector.geometry.maps.affines import Affines
 from batik_vector.geometry.outlines import Index
 from batik_vector.recipe.figures import Figure
-from batik_vector.recipe.motif import Element, Treatment
+from batik_vector.recipe.look import Dress, Treatment
 from batik_vector.recipe.placement import Placement
 from batik_vector.tiling.welding.congruent import Areas, polygons
 from batik_vector.tiling.welding.copies_on_grid import Spread, joined, landed, spreads
@@ -159,7 +159,7 @@ def _bare(figures: list[Figure], motif: str, look: Look) -> list[Sheet]:
     return [Sheet(motif, None, np.concatenate(shapes), gap=look.placement.gap)]
 
 
-def _ink(element: Element, name: str, inks: Mapping[str, Ink]) -> Ink:
+def _ink(element: Dress, name: str, inks: Mapping[str, Ink]) -> Ink:
     if not name and len(inks) == 1:
         return next(iter(inks.values()))
     if not name:

@@ -13,7 +13,7 @@ from batik_vector.artwork import Cell, Geometries, Ink, Overlap
 from batik_vector.errors import GeometryError
 from batik_vector.geometry.maps.affine import Affine
 from batik_vector.geometry.sampling import Array
-from batik_vector.recipe.figures import Figure, draw
+from batik_vector.recipe.figures import Figure, draw, size_of
 from batik_vector.recipe.motif import Motif, Treatment
 from batik_vector.recipe.placement import Placement
 from batik_vector.tiling.layouts import Clear, Stripes, Toss
@@ -32,6 +32,9 @@ if TYPE_CHECKING:
 
 BODY_SHARE, FINEST_BODY, COARSEST_BODY = 0.003, 0.005, 0.1
 """Tolerance of the outlines of tossed marks: a share of a mark's breadth, within two bounds in mm."""
+
+ROUGH = 0.01
+"""Tolerance of the drawing that measures a mark, as a share of the motif's size."""
 
 NEXT_SEED = 7919
 """By how much the seeds of one toss and the next differ."""
@@ -122,7 +125,7 @@ def striped(placement: Placement, spec: Stripes, scale: float, unit: Cell, groun
 
 def _drawn(motif: Motif, scale: float, tolerance: float) -> tuple[list[Figure], float]:
     """Return a motif, and the tolerance (mm) to which it is drawn."""
-    rough = draw(motif, 0.01)
+    rough = draw(motif, ROUGH * size_of(motif))
     low_x, low_y, high_x, high_y = shapely.total_bounds(
         np.concatenate([part for figure in rough for part in (figure.areas, figure.lines)])
     )

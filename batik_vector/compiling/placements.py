@@ -18,7 +18,7 @@ from batik_vector.geometry.ifs import distinct
 from batik_vector.geometry.maps.affine import Affine
 from batik_vector.geometry.maps.affines import ONE, Affines
 from batik_vector.geometry.sampling import Array, Points
-from batik_vector.recipe.figures import Figure, draw
+from batik_vector.recipe.figures import Figure, draw, size_of
 from batik_vector.recipe.model import Recipe
 from batik_vector.recipe.motif import Motif, Treatment
 from batik_vector.recipe.placement import Placement
@@ -36,7 +36,8 @@ KEPT_PLACEMENTS, KEPT_VERTICES = 32, 50_000
 """How many placements are remembered, and how large they may be."""
 
 COARSE = 2e-3
-"""Tolerance of the first drawing, in motif units: enough to measure it and to foretell its size."""
+"""Tolerance of the first drawing, as a share of the motif's size: enough to measure it and to foretell its
+vertices."""
 
 RUNGS = (0.5, 0.545, 0.595, 0.648, 0.707, 0.771, 0.841, 0.917)
 """Eight tolerances in each doubling: a twelfth finer than asked at most, with a 25th more vertices."""
@@ -137,7 +138,7 @@ def _drawn(
     rough = draw(motif, coarse)
     foretold = _refuse_past(limit, rough, images, times)
     with blame("layout"):
-        scale = placement.scale or _scale(placement, rough, images)
+        scale = placement.scale or _scale(placement, rough, images, coarse)
         if not (placement.scale or layout.spreads):
             images = layout.images(_in_units(cell, scale))
     foretold = max(foretold, _refuse_past(limit, rough, images, times, coarse * scale / fineness))
@@ -162,10 +163,11 @@ def _in_units(cell: tuple[float, float], scale: float) -> tuple[float, float]:
 
 def _coarse(motif: Motif, images: Affines | Bend, finest: float, scale: float | None) -> float:
     """Return the tolerance of the first drawing: the last one's, if that is known and needs few vertices."""
+    coarse = COARSE * size_of(motif)
     if scale is None or isinstance(images, Bend):
-        return COARSE
+        return coarse
     contours = sum(part.count * part.contours for part in motif.parts())
-    least = COARSE if contours > FEW_CONTOURS else COARSE / 100
+    least = coarse if contours > FEW_CONTOURS else coarse / 100
     return max(least, _rung(finest / scale / float(images.stretches.max())))
 
 
@@ -204,10 +206,12 @@ def _ground(
 ) -> Placed:
     """Do the work of :func:`place` for a layout that fills the repeat."""
     motifs = {name: _known(recipe.motif, name, "motif") for name in placement.motifs}
-    rough = {name: draw(motif, COARSE) for name, motif in motifs.items()}
+    coarse = {name: COARSE * size_of(motif) for name, motif in motifs.items()}
+    rough = {name: draw(motif, coarse[name]) for name, motif in motifs.items()}
     scale = placement.scale or (placement.width or 1.0) / max(_extent(each) for each in rough.values())
     finest = max(recipe.tolerance - GRID_SHARE, recipe.tolerance / 2)
-    finer, times = COARSE * scale / finest, len(orbit.operations)
+    finer = {name: each * scale / finest for name, each in coarse.items()}
+    times = len(orbit.operations)
     tossed, drawn = None, dict[str, Laid]()
     with blame("layout"):
         tosses = [each.tossed for each in before if each.tossed]
@@ -217,12 +221,12 @@ def _ground(
             tossed = scattered(placement, placement.layout, motifs, scale, ground)
             for (name, motif), copies in zip(motifs.items(), tossed.copies, strict=True):
                 if copies:
-                    _refuse_past(limit, rough[name], copies, times, finer)
+                    _refuse_past(limit, rough[name], copies, times, finer[name])
                     drawn[name] = _multiplied(Laid(*_set_out(motif, copies, finest)), orbit, finest)
         elif isinstance(placement.layout, Stripes):
             lines = striped(placement, placement.layout, scale, unit, ground)
             for name, motif in motifs.items():
-                _refuse_past(limit, rough[name], len(lines.starts) * lines.links, times, finer)
+                _refuse_past(limit, rough[name], len(lines.starts) * lines.links, times, finer[name])
                 figures = [
                     replace(figure, areas=lines.areas(figure.areas), lines=lines.lines(figure.lines))
                     for figure in _shown(draw(motif, finest / lines.stretch))
@@ -259,13 +263,13 @@ def _known(catalogue: Mapping[str, Motif], name: str, what: str) -> Motif:
     return catalogue[name]
 
 
-def _scale(placement: Placement, rough: list[Figure], images: Affines | Bend) -> float:
+def _scale(placement: Placement, rough: list[Figure], images: Affines | Bend, coarse: float) -> float:
     if placement.width is None:
         raise RecipeError("a placement needs a width or a scale")
     if not placement.layout.spreads:
         return placement.width / _extent(rough)
     if isinstance(images, Bend):
-        return placement.width / _extent(_bent(rough, images, COARSE))
+        return placement.width / _extent(_bent(rough, images, coarse))
     return placement.width / _extent(rough, images)
 
 

@@ -22,6 +22,9 @@ MAX_REACH_MM = 1e6
 """How far from the page a shape may reach; further off, products of whole µm leave 64 bits."""
 
 
+TEXT = "text hangs on a font; convert it to outlines first (Inkscape: Path → Object to Path)"
+
+
 @frozen(eq=False)
 class Part:
     """One shape of a clip: how many of its subpaths are its own, its fill rule, and what clips it in turn."""
@@ -115,7 +118,7 @@ class ClipPaths:
         if style.get("display") == "none" or kind not in (*SHAPES, "use", "text"):
             return
         if kind == "text":
-            self.document.refuse(element, "text hangs on a font; convert it to outlines first")
+            self.document.refuse(element, TEXT)
             return
         matrix = times(space.matrix, self._transform(element, style, space.size))
         if kind == "use":

@@ -145,7 +145,7 @@ def _stroke_notes(document: Document, inks: Sequence[str]) -> None:
 
 def _without_cloth(document: Document, marks: Marks, cell: Cell, bleed: float) -> tuple[Marks, str]:
     """Take the ground out: what lies in a layer "cloth", or else a first shape as large as the page."""
-    label = np.array([bool(_CLOTH.fullmatch(shape.label)) for shape in marks.shapes])
+    label = np.array([is_cloth(shape.label) for shape in marks.shapes])
     ground = label[marks.area_shape] if len(marks.areas) else np.empty(0, bool)
     if not ground.any() and len(marks.areas):
         first = int(marks.area_shape[0])
@@ -160,6 +160,11 @@ def _without_cloth(document: Document, marks: Marks, cell: Cell, bleed: float) -
     if not label.any():
         document.note(f"the first shape is as large as the page: taken as the cloth, {colour}")
     return marks.only(~ground, ~label[marks.line_shape] if len(marks.lines) else np.empty(0, bool)), colour
+
+
+def is_cloth(label: str) -> bool:
+    """Whether a layer is the cloth's by its name."""
+    return bool(_CLOTH.fullmatch(label))
 
 
 def _on_page(document: Document, marks: Marks, cell: Cell, bleed: float) -> Marks:

@@ -19,6 +19,9 @@ def layer_of(element: ET.Element, outer: str, top: bool) -> str:
     if not (layer or top):
         return outer
     name = element.get(f"{{{INKSCAPE}}}label") or element.get(f"{{{SERIF}}}id") or element.get("id") or ""
-    # Illustrator writes what an id may not hold as _x20_.
-    name = _LAYER_CODE.sub(lambda code: chr(int(code[1], 16)), name)
-    return " ".join(name.split()) or outer
+    return " ".join(decoded(name).split()) or outer
+
+
+def decoded(name: str) -> str:
+    """Return an id with what it may not hold, which Illustrator writes as ``_x20_``."""
+    return _LAYER_CODE.sub(lambda code: chr(int(code[1], 16)), name)

@@ -59,15 +59,19 @@ def parse_px(text: str | None, whole: float | None = None) -> float | None:
     return value if math.isfinite(value) else None
 
 
-def page_of(document: Document) -> Page:
+def page_of(document: Document, px_per_inch: float = PX_PER_INCH) -> Page:
     """Return the page of a document.
+
+    Args:
+        document: read.
+        px_per_inch: what a page in px, or of a viewBox alone, is measured by; older programs count 72.
 
     Raises:
         DrawingError: where its size is not said, or is none.
     """
     root = document.root
     box = view_box(document, root)
-    width, height, guessed = _size(document, box)
+    width, height, guessed = _size(document, box, px_per_inch)
     for side, value in (("width", width), ("height", height)):
         mm = value * MM_PER_PX
         if not LEAST_MM <= mm <= MOST_MM:
@@ -78,16 +82,17 @@ def page_of(document: Document) -> Page:
     return Page(width * MM_PER_PX, height * MM_PER_PX, times(scale, inner), size, guessed)
 
 
-def _size(document: Document, box: Box | None) -> tuple[float, float, str]:
-    """Return width and height in px, and in words what had to be guessed of them."""
-    root = document.root
+def _size(document: Document, box: Box | None, px_per_inch: float) -> tuple[float, float, str]:
+    """Return width and height in px of CSS, and in words what had to be guessed of them."""
+    root, larger = document.root, PX_PER_INCH / px_per_inch
     sides: list[float | None] = []
     for name in ("width", "height"):
         text = (root.get(name) or "").strip()
         value = parse_px(text)
         if value is None and text and text != "auto" and not text.endswith("%"):
             raise document.fault(f'{name} = "{text[:60]}", expected a length such as "280mm"', root)
-        sides.append(value)
+        bare = text[-1:] == "." or text[-1:].isdigit() or text.lower().endswith("px")
+        sides.append(value * larger if value is not None and bare else value)
     width, height = sides
     if width is not None and height is not None:
         return width, height, ""
@@ -104,8 +109,10 @@ def _size(document: Document, box: Box | None) -> tuple[float, float, str]:
         return width, width * ratio, "the height is guessed by the shape of the viewBox"
     if height is not None:
         return height / ratio, height, "the width is guessed by the shape of the viewBox"
-    mm = " × ".join(format_mm(side * MM_PER_PX) for side in box[2:])
-    return box[2], box[3], f"no size in mm is given: {mm} mm is guessed, 96 units of the viewBox to the inch"
+    width, height = box[2] * larger, box[3] * larger
+    mm = " × ".join(format_mm(side * MM_PER_PX) for side in (width, height))
+    count = f"{px_per_inch:g} units of the viewBox to the inch"
+    return width, height, f"no size in mm is given: {mm} mm is guessed, {count}"
 
 
 def view_box(document: Document, element: ET.Element) -> Box | None:

@@ -14,6 +14,8 @@ from batik_vector.importing.painting import Paint
 from batik_vector.importing.styles import Style, share_of
 
 EXPAND = "expand it to outlines first"
+SOLID = "what is half transparent is taken as solid, but at the seam, where tints must agree"
+FIRST_COLOUR = "a gradient is taken as one ink, in the colour it begins with"
 _URL = re.compile(r"""\s*+url\(\s*+['"]?+([^'")]*+)['"]?+\s*+\)(.*+)""", re.DOTALL)
 Box = tuple[float, float, float, float]
 """Left, upper edge, width and height."""
@@ -43,7 +45,7 @@ def paint_of(document: Document, element: ET.Element, style: Style, what: str) -
     if opacity == 0:
         return ""
     if opacity * share * share_of(style.get("opacity", "1")) < 1:
-        document.note("what is half transparent is taken as solid, but at the seam, where tints must agree")
+        document.note(SOLID)
     return colour
 
 
@@ -89,7 +91,7 @@ def _server(document: Document, element: ET.Element, what: str, target: str, fal
     server = document.by_id.get(target[1:]) if target.startswith("#") else None
     kind = "" if server is None else local(server)
     if kind in GRADIENTS:
-        document.note("a gradient is taken as one ink, in the colour it begins with")
+        document.note(FIRST_COLOUR)
         return _first_stop(document, server) or "#000000"
     if server is not None:
         document.refuse(element, f"is {'filled' if what == 'fill' else 'stroked'} with a {kind}; {EXPAND}")

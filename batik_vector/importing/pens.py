@@ -11,6 +11,7 @@ import shapely
 from numpy.typing import NDArray
 
 from batik_vector.artwork import Geometries
+from batik_vector.geometry.paths.matrix import Matrix, spread
 from batik_vector.geometry.paths.outline import EMPTY, MOVE, Outline, box, joined
 from batik_vector.geometry.paths.shapes import ellipse
 from batik_vector.importing.page import parse_px
@@ -33,6 +34,8 @@ BLUNT = 0.999
 """Square of the cosine of half a turn from which a mitre is no more than a bevel."""
 FOLD_MM = 1e-6
 """Mean breadth of a closed line up to which it is straight, there and back."""
+ROUND = 1e-6
+"""By how much the breadths of a pen may differ, as a part of them, for it to be round."""
 _COMMA = re.compile(r"[\s,]++")
 
 
@@ -65,6 +68,22 @@ def pen_of(style: Style, size: tuple[float, float], scale: float) -> Pen:
     begin = (parse_px(style["stroke-dashoffset"], whole) or 0.0) * scale
     cap, join = CAPS.get(style["stroke-linecap"], "flat"), JOINS.get(style["stroke-linejoin"], "mitre")
     return Pen(cap, join, max(limit, 1.0), tuple(dashes) * (1 + len(dashes) % 2), begin)
+
+
+def stroke_first(style: Style) -> bool:
+    """Tell whether a style's paint-order has the stroke before the fill (SVG 2, 13.8)."""
+    words = style["paint-order"].split()
+    return "stroke" in words and ("fill" not in words or words.index("stroke") < words.index("fill"))
+
+
+def lean_of(matrix: Matrix) -> Matrix | None:
+    """Return how a map distorts a round pen, by a map that keeps areas; None where it leaves it round."""
+    most, least = spread(matrix)
+    if most <= (1 + ROUND) * least or least <= ROUND * most:
+        return None
+    size = (most * least) ** 0.5
+    a, b, c, d = (each / size for each in matrix[:4])
+    return a, b, c, d, 0.0, 0.0
 
 
 def bodies(

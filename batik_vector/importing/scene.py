@@ -23,7 +23,9 @@ class Shape:
     ``fill`` and ``stroke`` are ``#rrggbb``, or nothing. ``label`` is the name of the layer it lies in,
     ``name`` its own. ``width`` is the stroke's, in mm. ``looks`` are the paints of fill and stroke as they
     show on a screen, None where that cannot be told, and ``pen`` is how a stroke's body is drawn. Of all
-    that, what lies in every one of ``clips`` shows. A ``tiling`` stands for a fill by a pattern.
+    that, what lies in every one of ``clips`` shows. A ``tiling`` stands for a fill by a pattern. ``trail``
+    are the elements that lead to it from the root. ``stroke_first`` says that the stroke lies under
+    the fill, ``lean`` how its pen is distorted (:func:`~batik_vector.importing.pens.lean_of`).
     """
 
     outline: Outline
@@ -37,6 +39,9 @@ class Shape:
     pen: Pen
     clips: tuple[Clip, ...] = ()
     tiling: Tiling | None = None
+    trail: tuple[ET.Element, ...] = ()
+    stroke_first: bool = False
+    lean: Matrix | None = None
 
     def under(self, matrix: Matrix) -> Shape:
         """Return the shape with paints for a page that is moved by an affine map, its outline left alone."""
@@ -58,6 +63,7 @@ class Here:
     depth: int = 0
     clips: tuple[Clip, ...] = ()
     opacity: float = 1.0
+    trail: tuple[ET.Element, ...] = ()
 
 
 @frozen(eq=False)

@@ -29,6 +29,7 @@ INITIAL: Mapping[str, str] = {
     "stroke-linecap": "butt",
     "stroke-linejoin": "miter",
     "stroke-miterlimit": "4",
+    "paint-order": "normal",
     "visibility": "visible",
     "color": "black",
     "marker-start": "none",

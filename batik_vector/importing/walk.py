@@ -8,13 +8,14 @@ from __future__ import annotations
 
 import contextlib
 import xml.etree.ElementTree as ET
+from collections.abc import Container
 from dataclasses import replace
 
 import numpy as np
 
 from batik_vector.geometry.paths.matrix import IDENTITY, Matrix, spread, times
 from batik_vector.geometry.paths.outline import Outline, box
-from batik_vector.importing.clip_paths import MAX_REACH_MM, Clip, ClipPaths, Part, Space, box_of
+from batik_vector.importing.clip_paths import MAX_REACH_MM, TEXT, Clip, ClipPaths, Part, Space, box_of
 from batik_vector.importing.document import (
     MAX_DEPTH,
     SWITCHES,
@@ -26,10 +27,10 @@ from batik_vector.importing.document import (
 from batik_vector.importing.layer_names import layer_of
 from batik_vector.importing.origins import transform_of
 from batik_vector.importing.page import Box, Page, fitted, parse_px, view_box
-from batik_vector.importing.paint import EXPAND, look_of, paint_of
+from batik_vector.importing.paint import EXPAND, FIRST_COLOUR, SOLID, look_of, paint_of
 from batik_vector.importing.painting import Paint
 from batik_vector.importing.patterns import pattern_of, server_of
-from batik_vector.importing.pens import dots, pen_of
+from batik_vector.importing.pens import dots, lean_of, pen_of, stroke_first
 from batik_vector.importing.scene import Here, Shape, Tiling
 from batik_vector.importing.shapes import SHAPES, outline_of
 from batik_vector.importing.styles import GEOMETRY, INITIAL, MOVES, Style, Styles, share_of
@@ -43,9 +44,13 @@ FRAME_SLACK = 1e-3
 """Parts of a side by which a clip may fall short of what it holds and still cut nothing away."""
 
 _FOLLOWED = "once every use in it is followed"
+DASHED = "dashed lines are taken as whole ones, but at the seam"
+LOPSIDED = "lines under a lopsided transform have their mean breadth"
+TILE_NOTES = frozenset((DASHED, LOPSIDED, SOLID, FIRST_COLOUR))
+"""What is told of tiles alone: who draws every mark for itself draws these as they are, or refuses them."""
 _REFUSED = {
-    "image": "a picture has no outlines; trace it, or take it out",
-    "text": "text hangs on a font; convert it to outlines first",
+    "image": "a picture has no outlines; trace it (Inkscape: Path → Trace Bitmap), or take it out",
+    "text": TEXT,
     "foreignObject": "foreign content cannot be read as geometry",
     "video": "is no geometry",
     "canvas": "is no geometry",
@@ -56,9 +61,11 @@ _REFUSED = {
 class Walker:
     """Collects what a document paints. :meth:`walk` is called once."""
 
-    def __init__(self, document: Document, page: Page) -> None:
+    def __init__(self, document: Document, page: Page, only: Container[ET.Element] | None = None) -> None:
+        """Ready a walk over all that is painted, or over ``only`` some elements and what a use leads to."""
         self.document = document
         self.page = page
+        self._only = only
         self.shapes: list[Shape] = []
         self._styles = Styles(document)
         self._clip_paths = ClipPaths(document, self._styles, self._spend)
@@ -74,7 +81,7 @@ class Walker:
         """
         root = self.document.root
         style = self._styles.of(root, INITIAL)
-        here = Here(self.page.matrix, style, size=self.page.size, opacity=_opacity(style))
+        here = Here(self.page.matrix, style, size=self.page.size, opacity=_opacity(style), trail=(root,))
         if self._painted(root, style):
             self._refused_effects(root, style)
             here = replace(here, clips=self._clips(root, style, here))
@@ -86,8 +93,10 @@ class Walker:
     def _visit(self, element: ET.Element, here: Here, top: bool = False) -> None:
         if here.used:
             self._spend(element)
+        elif self._only is not None and element not in self._only:
+            return
         kind = local(element)
-        if kind in _PASSED or not kind:
+        if kind in PASSED or not kind:
             return
         style = self._styles.of(element, here.style)
         if not self._painted(element, style):
@@ -103,7 +112,14 @@ class Walker:
             x, y = _px(element.get("x"), 0.0, here.size[0]), _px(element.get("y"), 0.0, here.size[1])
             matrix = times(matrix, (1.0, 0.0, 0.0, 1.0, x, y))
         opacity = here.opacity * _opacity(style)
-        inside = replace(here, matrix=matrix, style=style, depth=here.depth + 1, opacity=opacity)
+        inside = replace(
+            here,
+            matrix=matrix,
+            style=style,
+            depth=here.depth + 1,
+            opacity=opacity,
+            trail=(*here.trail, element),
+        )
         if inside.depth > MAX_DEPTH:
             raise self.document.fault(f"nested deeper than {MAX_DEPTH} elements", element)
         self._refused_effects(element, style)
@@ -197,9 +213,8 @@ class Walker:
         if local(found) == "symbol":
             style = self._styles.of(found, here.style)
             if self._painted(found, style):
-                inside = replace(
-                    here, style=style, matrix=times(here.matrix, self._transform(found, style, here))
-                )
+                matrix = times(here.matrix, self._transform(found, style, here))
+                inside = replace(here, style=style, matrix=matrix, trail=(*here.trail, found))
                 self._refuse_styled_geometry(found, "symbol", style)
                 self._spend(found)
                 self._refused_effects(found, style)
@@ -240,6 +255,9 @@ class Walker:
         looks = self._look("fill", fill, drawn, here), self._look("stroke", stroke, drawn, here)
         pen = pen_of(style, here.size, breadth / width if width else 1.0)
         shape = Shape(outline, *names, fill, style["fill-rule"], stroke, breadth, looks, pen, here.clips)
+        shape = replace(
+            shape, trail=here.trail, stroke_first=stroke_first(style), lean=self._lean(style, here)
+        )
         if server is not None:
             self._tile(element, shape, here, (server, box_of([drawn])))
         if fill or stroke:
@@ -279,6 +297,19 @@ class Walker:
         for child in children(element):
             self._visit(child, here)
 
+    def reach(self, element: ET.Element) -> Box | None:
+        """Return the box, on the page in mm, of what an element draws where it stands, painted or not."""
+        parents = {child: parent for parent in self.document.root.iter() for child in parent}
+        line = [element]
+        while line[-1] in parents:
+            line.append(parents[line[-1]])
+        here = Here(self.page.matrix, INITIAL, size=self.page.size)
+        for each in reversed(line):
+            here = replace(here, style=self._styles.of(each, here.style))
+            here = replace(here, matrix=times(here.matrix, self._transform(each, here.style, here)))
+        found = self._measured_within(element, here)
+        return box_of(found)
+
     def _measure(self, element: ET.Element, here: Here) -> None:
         self._spend(element)
         if self._measured is not None:
@@ -307,12 +338,16 @@ class Walker:
             return width * spread(self.page.matrix)[0]
         most, least = spread(here.matrix)
         if most > 1.01 * least and style["stroke"] != "none":
-            self.document.note("lines under a lopsided transform have their mean breadth")
+            self.document.note(LOPSIDED)
         return width * float((most * least) ** 0.5)
+
+    def _lean(self, style: Style, here: Here) -> Matrix | None:
+        scaling = style.get("vector-effect") != "non-scaling-stroke"
+        return lean_of(here.matrix) if scaling and style["stroke"] != "none" else None
 
     def _stroke_notes(self, element: ET.Element, style: Style, here: Here) -> None:
         if style["stroke-dasharray"] not in ("none", "0"):
-            self.document.note("dashed lines are taken as whole ones, but at the seam")
+            self.document.note(DASHED)
         if any(style[name] != "none" for name in ("marker-start", "marker-mid", "marker-end")):
             self.document.refuse(element, f"has markers at its ends; {EXPAND}")
 
@@ -336,10 +371,13 @@ class Walker:
 
     def _box(self, element: ET.Element, here: Here) -> Box | None:
         """Return the box of what an element draws, painted or not, in its own units."""
+        return box_of(self._measured_within(element, replace(here, matrix=IDENTITY)))
+
+    def _measured_within(self, element: ET.Element, here: Here) -> list[Outline]:
         kept, self._measured = self._measured, []
-        self._enter(element, replace(here, matrix=IDENTITY, used=(*here.used, element)), False)
+        self._enter(element, replace(here, used=(*here.used, element)), False)
         found, self._measured = self._measured, kept
-        return box_of(found)
+        return found
 
 
 def _opacity(style: Style) -> float:
@@ -351,7 +389,7 @@ defs symbol clipPath mask pattern linearGradient radialGradient meshgradient hat
 style script title desc metadata view cursor font font-face glyph animate animateTransform animateMotion
 animateColor set color-profile
 """
-_PASSED = frozenset(_SILENT.split())
+PASSED = frozenset(_SILENT.split())
 """Elements that paint nothing where they stand."""
 
 

@@ -17,6 +17,7 @@ from batik_vector.geometry.maps.affine import IDENTITY, Affine
 from batik_vector.geometry.maps.affines import Affines, turns
 from batik_vector.geometry.regions import FillRule, oriented, settle
 from batik_vector.geometry.sampling import Array, Geometries, Points
+from batik_vector.recipe.drawing import Part, Svg
 from batik_vector.recipe.motif import Element, Motif, Ring
 from batik_vector.values import frozen
 
@@ -25,7 +26,7 @@ from batik_vector.values import frozen
 class Figure:
     """An element as geometry, in motif units: ``areas`` filled, ``lines`` its centre lines."""
 
-    element: Element
+    element: Element | Part
     areas: Geometries
     lines: Geometries
 
@@ -43,7 +44,14 @@ def draw(motif: Motif, tolerance: float | Callable[[Points], Array]) -> list[Fig
     Raises:
         TooLargeError: where a curve crosses itself too often to be filled.
     """
+    if isinstance(motif, Svg):
+        return [Figure(*shape) for shape in motif.shapes(tolerance)]
     return [_named(element, tolerance) for element in motif.parts()]
+
+
+def size_of(motif: Motif) -> float:
+    """Return about how far a motif reaches from its middle, in its units: 1 for those of the paper's size."""
+    return motif.size if isinstance(motif, Svg) else 1.0
 
 
 def _named(element: Element, tolerance: float | Callable[[Points], Array]) -> Figure:

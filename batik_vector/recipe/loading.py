@@ -14,10 +14,11 @@ from typing import TYPE_CHECKING, Any
 
 from batik_vector.errors import Fault, RecipeError
 from batik_vector.fields import given
+from batik_vector.recipe.drawing import Svg
 from batik_vector.recipe.model import Recipe
 from batik_vector.recipe.reading.builder import UnsureError, built
 from batik_vector.recipe.reading.limits import MAX_DEPTH, deep_key, odd_numbers
-from batik_vector.recipe.reading.sources import MAX_TEXT, read_text
+from batik_vector.recipe.reading.sources import MAX_TEXT, parted, read_text, with_carried
 
 if TYPE_CHECKING:
     from batik_vector.recipe.reading.overrides import Override
@@ -34,16 +35,23 @@ def load_recipe(path: str | os.PathLike[str], overrides: Sequence[str] = ()) -> 
         RecipeError: with everything that is wrong.
     """
     given(path, str | os.PathLike, "path")
-    return read_recipe(read_text(path), source=os.fspath(path), overrides=overrides)
+    text, folder = read_text(path), os.path.dirname(os.fspath(path)) or "."
+    return read_recipe(text, source=os.fspath(path), overrides=overrides, folder=folder)
 
 
-def read_recipe(text: str, source: str = "recipe", overrides: Sequence[str] = ()) -> Recipe:
+def read_recipe(
+    text: str,
+    source: str = "recipe",
+    overrides: Sequence[str] = (),
+    folder: str | os.PathLike[str] | None = None,
+) -> Recipe:
     """Read a recipe from TOML text.
 
     Args:
         text: the recipe.
         source: what faults call it.
         overrides: values to set in it, each as ``KEY=VALUE``.
+        folder: where the drawings stand that it names; without it those alone are known that it carries.
 
     Raises:
         RecipeError: with everything that is wrong.
@@ -51,7 +59,9 @@ def read_recipe(text: str, source: str = "recipe", overrides: Sequence[str] = ()
     given(text, str, "text")
     given(source, str, "source")
     given(overrides, tuple[str, ...], "overrides")
-    written = text = text.replace("\r\n", "\n")
+    given(folder, str | os.PathLike | None, "folder")
+    text, carried = parted(text.replace("\r\n", "\n"))
+    written = text
     data = _tables(text, source)
     changes: list[Override] = []
     if overrides:
@@ -59,15 +69,37 @@ def read_recipe(text: str, source: str = "recipe", overrides: Sequence[str] = ()
 
         changes = [parse_override(each) for each in overrides]
         text, data = overridden(text, data, changes)
+    if carried and isinstance(data.setdefault("drawing", {}), dict):
+        data["drawing"] = carried | data["drawing"]
+        text = with_carried(text, carried)
     try:
-        return built(Recipe, data, source=text)
+        recipe = built(Recipe, data, source=text)
     except UnsureError:
         from batik_vector.recipe.reading.validator import placed, validated
 
-        recipe, found = validated(data)
-    if recipe is None:
-        raise RecipeError(placed(found, source, written, changes))
-    return replace(recipe, source=text)
+        found_recipe, found = validated(data)
+        if found_recipe is None:
+            raise RecipeError(placed(found, source, written, changes)) from None
+        recipe = replace(found_recipe, source=text)
+    return _drawn(recipe, folder, source, written, overrides)
+
+
+def _drawn(
+    recipe: Recipe,
+    folder: str | os.PathLike[str] | None,
+    source: str,
+    written: str,
+    overrides: Sequence[str],
+) -> Recipe:
+    """Return a recipe with the drawings that it names."""
+    if not any(isinstance(motif, Svg) for motif in recipe.motif.values()):
+        return recipe
+    from batik_vector.recipe.reading.drawings import with_drawings
+
+    try:
+        return with_drawings(recipe, None if folder is None else os.fspath(folder))
+    except RecipeError as error:
+        raise located(error, source, written, overrides) from error
 
 
 def located(error: RecipeError, source: str, text: str, overrides: Sequence[str] = ()) -> RecipeError:

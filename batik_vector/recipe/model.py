@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import field
+from dataclasses import field, replace
 from typing import Annotated, TypeAlias
 
 from batik_vector.artwork import Overlap
 from batik_vector.errors import Fault, GeometryError, RecipeError
 from batik_vector.fields import HIDDEN, Between, Colour, Length, OneOf, Says, check
 from batik_vector.recipe.border import BorderSpec
+from batik_vector.recipe.drawing import Svg
 from batik_vector.recipe.motif import MOTIFS, Motif, Treatment
 from batik_vector.recipe.outputs import AnyOutput, OutputSpec
 from batik_vector.recipe.placement import Placement
@@ -31,6 +32,10 @@ class InkSpec:
 
     def __post_init__(self) -> None:
         check(self)
+
+
+def _one_ink() -> dict[str, InkSpec]:
+    return {"ink": InkSpec()}
 
 
 @frozen(kw_only=True)
@@ -61,20 +66,42 @@ class Recipe:
         10_000_000
     )
     ink: Annotated[dict[str, InkSpec], Says("the inks, by name, in painting order")] = field(
-        default_factory=lambda: {"ink": InkSpec()}
+        default_factory=_one_ink
     )
     cloth: Annotated[ClothSpec, Says("the ground")] = field(default_factory=ClothSpec)
     output: Annotated[tuple[AnyOutput, ...], Says("files to write")] = ()
+    drawing: Annotated[
+        dict[str, str], Says("SVG drawings by the names of their files; what is not here is read from there")
+    ] = field(default_factory=dict)
     source: str = field(default="", metadata={HIDDEN: True})
 
     __pydantic_config__ = {"strict": True, "allow_inf_nan": False}  # noqa: RUF012
 
     def __post_init__(self) -> None:
         check(self)
+        self._take_colours()
         faults = [fault for _, fault in unknown_references(self)]
         faults += self._missing() + self._bad_names() + self._without_ink() + self._bad_symmetries()
         if faults:
             raise RecipeError(faults)
+
+    def _take_colours(self) -> None:
+        """Make inks of the colours that drawings keep: of each that no ink has, one called after it."""
+        drawings = {name: each for name, each in self.motif.items() if isinstance(each, Svg)}
+        colours = dict.fromkeys(colour for each in drawings.values() for colour in each.colours_kept())
+        if not colours:
+            return
+        written = {} if self.ink == _one_ink() else self.ink
+        known = {spec.colour: name for name, spec in reversed(written.items())}
+        fresh = {colour: InkSpec(colour=colour) for colour in colours if colour not in {**known, **written}}
+        inks = tuple((colour, known.get(colour, colour)) for colour in colours)
+        motifs = {
+            name: replace(each, inks=inks)
+            for name, each in drawings.items()
+            if each.colours and not each.inks
+        }
+        object.__setattr__(self, "motif", self.motif | motifs)
+        object.__setattr__(self, "ink", written | fresh)
 
     @property
     def tiling(self) -> TileSpec:

@@ -49,6 +49,7 @@ from batik_vector.errors import GeometryError
 from batik_vector.export import FORMATS, format_of, render, write_page
 from batik_vector.geometry.curves import CURVES, Circle, Curve, FunctionCurve, Polar, Polygon, trace
 from batik_vector.geometry.maps import VARIATIONS
+from batik_vector.recipe.drawing import Svg
 from batik_vector.recipe.figures import draw
 from batik_vector.recipe.motif import MOTIFS, Core, Dress, Leaf, Petals, Pistil, Treatment
 from batik_vector.recipe.outputs import OUTPUTS
@@ -115,6 +116,7 @@ BY_HAND: dict[type, dict[str, Any]] = {
     Layer: {"ink": Ink("wax", "#ffffff")},
     Element: {"curve": Circle()},
     Rosette: {"elements": (Element(curve=Circle()),)},
+    Svg: {"file": "bird.svg"},
     Placement: {"motif": "m", "width": 40.0},
     TileSpec: {"size": (80.0, 80.0)},
     YardageSpec: {"width": 300.0},

@@ -4,16 +4,28 @@ from __future__ import annotations
 
 import codecs
 import os
+import re
 import stat
+import tomllib
+from collections.abc import Mapping
 from pathlib import Path
 
 from batik_vector.errors import Fault, RecipeError
+from batik_vector.recipe.references import quoted
 
 MAX_TEXT = 1 << 20
 """Bytes of a recipe. The longest by hand has some thousands."""
 MAX_COMPILED = 512 << 20
 COMPILED = (".svg", ".pdf", ".dxf", ".png")
 _SUFFIXES = (".toml", *COMPILED)
+CARRIED = (
+    "\n# The drawings that stood beside the recipe. Without this table they are read from there again.\n"
+    "[drawing]\n"
+)
+"""Begins what a compiled file carries behind its recipe."""
+MAX_CARRIED = 14 << 20
+"""Characters that the drawings in it may come to; the recipe too fits in what a file may carry."""
+_ENTRY = re.compile(r'("[^"\\\n]*+(?:\\.[^"\\\n]*+)*") = \'\'\'\n([^\']*+)\'\'\'\n')
 
 
 def read_text(path: str | os.PathLike[str]) -> str:
@@ -42,9 +54,10 @@ def _from_compiled(path: str | os.PathLike[str]) -> str:
     text = read_provenance(Path(path)).recipe
     if not text:
         raise _fault("was made from Python and carries no recipe", os.fspath(path))
-    if len(text) > MAX_TEXT:
+    own, _ = parted(text)
+    if len(own) > MAX_TEXT:
         raise _fault(
-            f"its recipe has {len(text):,} characters, expected at most {MAX_TEXT:,}", os.fspath(path)
+            f"its recipe has {len(own):,} characters, expected at most {MAX_TEXT:,}", os.fspath(path)
         )
     return text
 
@@ -106,3 +119,29 @@ def _offer(path: Path) -> str:
 
 def _fault(words: str, source: str) -> RecipeError:
     return RecipeError([Fault(words, source=source)])
+
+
+def parted(text: str) -> tuple[str, dict[str, str]]:
+    """Return a recipe's text without the drawings that are carried behind it, and these by their names.
+
+    Where anything else stands behind it, all is the recipe's own.
+    """
+    own, mark, rest = text.partition(CARRIED)
+    if not mark:
+        return text, {}
+    found: dict[str, str] = {}
+    at = 0
+    while entry := _ENTRY.match(rest, at):
+        found[str(tomllib.loads(f"k = {entry[1]}")["k"])] = entry[2]
+        at = entry.end()
+    return (own, found) if at == len(rest) and found else (text, {})
+
+
+def with_carried(source: str, texts: Mapping[str, str]) -> str:
+    """Return a recipe's text with drawings behind it; without them where they would be too much."""
+    if not texts or sum(map(len, texts.values())) > MAX_CARRIED:
+        return source
+    parts = [source if source.endswith("\n") or not source else f"{source}\n", CARRIED]
+    # An apostrophe within an SVG's text or attribute is written as a reference, so that none ends the string.
+    parts += [f"{quoted(file)} = '''\n{text}'''\n" for file, text in texts.items()]
+    return "".join(parts)

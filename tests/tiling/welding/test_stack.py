@@ -158,4 +158,5 @@ def replace_contours(recipe: Recipe) -> Recipe:
     from dataclasses import replace
 
     (element,) = recipe.motif["m"].parts()
+    assert isinstance(element, Element)
     return replace(recipe, motif={"m": Rosette(elements=(replace(element, contours=1),))})
