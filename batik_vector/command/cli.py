@@ -339,6 +339,8 @@ def _ready() -> None:
 
 def main() -> None:
     """Run the command."""
+    # Maps of points are products with matrices of two rows: threads for them cost more than they bring.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     end_on_sigterm()
     listen(_interrupted)
     with _brief():

@@ -20,11 +20,15 @@ from numpy.typing import NDArray
 
 from batik_vector.certificate.symmetry.lattice import Matrix
 from batik_vector.certificate.symmetry.nearest_edges import Nearest, spread
-from batik_vector.certificate.symmetry.outline import Edges, Indices, Points
+from batik_vector.certificate.symmetry.outline import Edges, Indices, Points, simplified
+from batik_vector.certificate.symmetry.same_places import SamePlaces
 from batik_vector.values import frozen
 
 FEW = 600
 """Points, evenly strewn over the outline, by which an operation is placed and most false ones are refused."""
+
+FIRST = 3
+"""One in so many of the few serves for a first guess."""
 
 MANY = 20_000
 """Points strewn along long edges, besides one at each vertex and in the middle of each edge."""
@@ -37,6 +41,9 @@ NEAR = 4
 
 FINE = 0.5
 """The share of the outline of an ink up to which it may be hairs or ends; where more is, all of it counts."""
+
+CHUNK = 16_384
+"""Points looked up in one go, which keeps them in the processor's cache."""
 
 MEASURED = 256
 """Points beyond reach whose distance is worked out one by one where a failure is reported."""
@@ -54,7 +61,7 @@ class Samples:
     heading: Points
     along: Points
 
-    def __getitem__(self, rows: Indices) -> Samples:
+    def __getitem__(self, rows: Indices | slice) -> Samples:
         return Samples(self.xy[rows], self.kind[rows], self.heading[rows], self.along[rows])
 
 
@@ -80,18 +87,20 @@ class Matcher:
 
     def __init__(self, edges: Edges, basis: Matrix, slack: float, reach: float, thin: float) -> None:
         self.edges, self.basis, self.slack, self.thin = edges, basis, slack, thin
-        self.all = _samples(edges, slack)
+        self.all = self.whole = _samples(edges, slack)
         self.few = _strewn(edges, FEW, slack)
         self.telling = np.empty(0, np.intp)
         self.trees: dict[int, shapely.STRtree] = {}
         self.near = Nearest(edges, basis, NEAR * slack, slack)
-        self.far = Nearest(edges, basis, max(reach, NEAR * slack), slack)
+        # A first guess needs neither every point nor every edge.
+        self.far = Nearest(simplified(edges, NEAR * slack / 2), basis, max(reach, NEAR * slack), slack)
 
     def keep_one_cell(self, lattice: Matrix) -> None:
         """Measure from now on by the points of one cell of a finer lattice, on which the pattern repeats."""
         cell = np.floor(self.all.xy @ np.linalg.inv(lattice).T)
-        steps = cell @ lattice.T @ np.linalg.inv(self.basis).T
-        self.all = self.all[np.flatnonzero((np.abs(steps - np.rint(steps)) < 1e-6).all(axis=1))]
+        steps = cell @ (np.linalg.inv(self.basis) @ lattice).T
+        across, up = np.abs(steps - np.rint(steps)).T
+        self.all = self.all[np.flatnonzero((across < 1e-6) & (up < 1e-6))]
         self.telling = np.empty(0, np.intp)
 
     def placed(self, matrix: Matrix, shift: Points) -> Points:
@@ -100,10 +109,13 @@ class Matcher:
         Point-to-line least squares over the points within a shrinking reach (Chen & Medioni, "Object
         modelling by registration of multiple range images", 1992).
         """
-        moved = _moved(self.few, matrix)
+        every, some = (
+            _moved(self.few, matrix),
+            _moved(self.few[np.arange(0, len(self.few.kind), FIRST)], matrix),
+        )
         reach = self.far.reach
         for _ in range(10):
-            near = self.far if reach > self.near.reach else self.near
+            near, moved = (self.far, some) if reach > self.near.reach else (self.near, every)
             feet = near.feet(moved.xy + shift, moved.kind, moved.heading)
             used = feet.distance <= reach
             if used.sum() < 3:
@@ -127,7 +139,7 @@ class Matcher:
         share = 1 - len(missed) / len(self.few.kind)
         if len(missed) or (self._distances(self.all[self.telling], matrix, shift) > limit).any():
             return Fit(False, share)
-        distance = self._distances(self.all, matrix, shift)
+        distance = self._distances_of_all(matrix, shift)
         missed = np.flatnonzero(distance > limit)
         missed = missed[~self._on_hairs(self.all[missed])]
         if not len(missed):
@@ -137,7 +149,7 @@ class Matcher:
 
     def failure(self, matrix: Matrix, shift: Points) -> tuple[float, tuple[float, float], int]:
         """Return by how much (mm) an operation that does not hold fails most, where, and on which kind."""
-        distance = self._distances(self.all, matrix, shift)
+        distance = self._distances_of_all(matrix, shift, at_most=MANY)
         alone = np.flatnonzero(np.isinf(distance))
         distance[alone] = 0
         alone = alone[~self._on_hairs(self.all[alone])]
@@ -194,6 +206,31 @@ class Matcher:
         """Return which points have an edge that runs the other way within reach."""
         facing = self._sides.distances(samples.xy, samples.kind, -samples.along)
         return np.asarray((facing <= self.thin) & (samples.kind % 2 == 0))
+
+    @cached_property
+    def _places(self) -> SamePlaces:
+        whole = self.whole
+        return SamePlaces(whole.xy, whole.kind, whole.heading, whole.along, self.basis, self.slack / 2)
+
+    def _distances_of_all(
+        self, matrix: Matrix, shift: Points, at_most: int | None = None
+    ) -> NDArray[np.float64]:
+        """Return how far all points stand from the pattern: those that fall on others are soon told.
+
+        Of the rest, ``at_most`` so many are measured, one in so many; the others count as falling on it.
+        """
+        count = len(self.all.kind)
+        distance = np.empty(count)
+        for begin in range(0, count, CHUNK):
+            part = slice(begin, begin + CHUNK)
+            moved = _moved(self.all[part], matrix)
+            distance[part] = self._places.distances(moved.xy + shift, moved.kind, moved.heading)
+        rest = np.flatnonzero(np.isinf(distance))
+        if at_most is not None:
+            distance[rest] = 0
+            rest = rest[:: -(-len(rest) // at_most) or 1]
+        distance[rest] = self._distances(self.all[rest], matrix, shift)
+        return distance
 
     def _distances(self, samples: Samples, matrix: Matrix, shift: Points) -> NDArray[np.float64]:
         moved = _moved(samples, matrix)

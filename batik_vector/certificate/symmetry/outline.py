@@ -187,6 +187,23 @@ def _chained(coords: Points, owner: Indices, kind: int) -> Edges:
     return Edges(begin, end, np.full(len(begin), kind, np.intp))
 
 
+def simplified(edges: Edges, tolerance: float) -> Edges:
+    """Return edges within a tolerance (mm) of those given; marks that are smaller than it are left out."""
+    if not len(edges):
+        return edges
+    runs = (edges.begin[1:] != edges.end[:-1]).any(axis=1) | (edges.kind[1:] != edges.kind[:-1])
+    run = np.concatenate([[0], np.cumsum(runs)])
+    first = np.flatnonzero(np.concatenate([[True], runs]))
+    at = np.concatenate([2 * np.arange(len(edges)) + 1, 2 * first])
+    owner = np.concatenate([run, run[first]])
+    order = np.argsort(at, kind="stable")
+    coords = np.concatenate([edges.end, edges.begin[first]])[order]
+    lines = shapely.linestrings(coords, indices=owner[order])
+    coords, owner = _ragged(np.asarray(shapely.simplify(lines, tolerance, preserve_topology=False)))
+    same = owner[1:] == owner[:-1]
+    return together([Edges(coords[:-1][same], coords[1:][same], edges.kind[first][owner[1:][same]])])
+
+
 def _one_sided(areas: Geometries, cell: Cell, kind: int) -> Edges:
     """Return the boundary that runs along a seam: what one edge of the cell covers and its twin does not."""
     found: list[Steps] = []
