@@ -54,8 +54,8 @@ format: $(TOOLS_READY) ## mend the style
 bench: $(TOOLS_READY) $(PEERS_READY) ## time everything beside its peers, and write the tables into benchmarks/README.md
 	$(PY) -m benchmarks.run
 
-golden: $(TOOLS_READY) ## draw the samples' pictures and the gallery again
-	$(PY) tools/golden.py
+golden: $(TOOLS_READY) ## draw the pictures of samples and starters and the gallery again
+	$(PY) -m tools.golden
 
 docs: $(TOOLS_READY) ## write docs/recipe.md and docs/architecture.md from the program
 	$(PY) tools/reference.py

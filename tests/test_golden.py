@@ -9,6 +9,7 @@ import pytest
 from PIL import Image, ImageOps
 
 from tools import golden
+from tools.starters_sheet import SHEET
 
 MEND = "make golden draws it again; look at it before you keep it"
 
@@ -33,6 +34,15 @@ def test_the_picture_is_small(path: Path) -> None:
 @pytest.mark.clients
 def test_the_gallery_is_up_to_date() -> None:
     assert not golden.gallery_is_stale([golden.sample(path) for path in golden.samples()]), MEND
+
+
+@pytest.mark.clients
+def test_the_sheet_of_the_starters_is_up_to_date() -> None:
+    assert not golden.sheet_is_stale(), MEND
+
+
+def test_the_sheet_of_the_starters_is_small() -> None:
+    assert SHEET.stat().st_size <= golden.MOST_BYTES
 
 
 def test_another_picture_is_told() -> None:

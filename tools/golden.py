@@ -1,7 +1,7 @@
-"""Draws the pictures and the gallery of the samples, or tells which of them are out of date.
+"""Draws the pictures of samples and starters and the gallery, or tells which of them are out of date.
 
-    python tools/golden.py            draw what is out of date
-    python tools/golden.py --check    only tell, and exit 1 where something is
+    python -m tools.golden            draw what is out of date
+    python -m tools.golden --check    only tell, and exit 1 where something is
 
 A picture shows several repeats, so that one sees the pattern and not the tile. Pictures count as the
 same where no small patch of one differs from the other's to the eye: cairo and Pillow change an edge's
@@ -26,6 +26,7 @@ from batik_vector.recipe.outputs import PngOutput
 from batik_vector.tiling.cloth.field import repeated
 from batik_vector.tiling.cloth.yardage import Yardage
 from batik_vector.units import STEPS_PER_MM, format_mm
+from tools.starters_sheet import SHEET, sheet
 
 SAMPLES = Path(__file__).resolve().parents[1] / "samples"
 GALLERY = "README.md"
@@ -172,6 +173,11 @@ def gallery_is_stale(found: list[Sample]) -> bool:
     return not kept.exists() or kept.read_text(encoding="utf-8") != gallery(found)
 
 
+def sheet_is_stale() -> bool:
+    """Return whether the sheet of the starters is missing or shows something else."""
+    return not SHEET.exists() or not same(SHEET.read_bytes(), sheet())
+
+
 def _packed(picture: Image.Image) -> Iterator[bytes]:
     """Yield the picture as PNG files, the next always smaller than the last."""
     for colours in (128, 64, 32, 16, 8):
@@ -204,6 +210,11 @@ def main() -> int:
         print(f"{GALLERY:<32} {'stale' if only_check else 'written'}")
         if not only_check:
             (SAMPLES / GALLERY).write_text(gallery(found), encoding="utf-8")
+    if sheet_is_stale():
+        wrong += 1
+        print(f"{SHEET.name:<32} {'stale' if only_check else 'drawn'}")
+        if not only_check:
+            SHEET.write_bytes(sheet())
     for kept in sorted({*SAMPLES.glob("*.png")} - {each.picture_path for each in found}):
         wrong += 1
         print(f"{kept.name:<32} belongs to no recipe")

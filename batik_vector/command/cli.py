@@ -24,8 +24,21 @@ if TYPE_CHECKING:
 
 FORMATS = ("svg", "pdf", "dxf", "png")
 """As in :data:`batik_vector.export.FORMATS`, which a test compares."""
-KINDS = ("flower", "four-square", "half-drop", "rosette")
+KINDS = (
+    "border",
+    "ceplok",
+    "flower",
+    "four-square",
+    "half-drop",
+    "kawung",
+    "rosette",
+    "toss",
+    "truntum",
+    "wallpaper",
+    "yardage",
+)
 """As in :data:`batik_vector.command.starters.STARTERS`, likewise."""
+DEFAULT_KIND = "flower"
 SIGPIPE_EXIT = 141
 
 
@@ -284,21 +297,37 @@ def _progress(jobs: Sequence[Job], quiet: bool) -> Iterator[tuple[Job, Callable[
             yield job, tell
 
 
+def _kind_name(_ctx: click.Context, _param: click.Parameter, name: str | None) -> str | None:
+    if name is not None and name not in KINDS:
+        raise click.BadParameter(unknown_name(name, KINDS, "kind"))
+    return name
+
+
 @cli.command("new")
 @click.argument("name", required=False)
 @click.option(
     "--kind",
-    type=click.Choice(KINDS),
-    default="flower",
-    show_default=True,
-    help="What it begins as.",
+    callback=_kind_name,
+    metavar="KIND",
+    help=f"What it begins as: {', '.join(KINDS)}.  [default: NAME where it is one, or {DEFAULT_KIND}]",
 )
 @click.option("-o", "path", metavar="FILE", help="The file to write.  [default: NAME.toml]")
 @click.option("--force", is_flag=True, help="Replace a file that is there.")
-def new_command(name: str | None, kind: str, path: str | None, force: bool) -> None:
-    """Write a recipe to begin with: short, commented, ready to compile."""
-    from batik_vector.command.starters import STARTERS, write_starter
+@click.option("--list", "as_list", is_flag=True, help="Say what kinds there are, each in a line.")
+def new_command(name: str | None, kind: str | None, path: str | None, force: bool, as_list: bool) -> None:
+    """Write a recipe to begin with: short, commented, ready to compile.
 
+    Without a NAME, a KIND or a FILE it says what kinds there are.
+    """
+    from batik_vector.command.starters import STARTERS, summary, write_starter
+
+    if as_list or (name is None and kind is None and path is None and not force):
+        for each in KINDS:
+            click.echo(f"{each:<{max(map(len, KINDS))}}  {summary(STARTERS / f'{each}.toml')}")
+        click.echo(f"Next: batik-vector new mine --kind {DEFAULT_KIND}", err=True)
+        return
+    named = (name or "").removesuffix(".toml").lower()
+    kind = kind or (named if named in KINDS else DEFAULT_KIND)
     written = write_starter(STARTERS / f"{kind}.toml", name, path, force)
     click.echo(f"{written} written. Next: batik-vector compile {written}", err=True)
 

@@ -15,6 +15,13 @@ _TITLE = re.compile(r"^title( *)= .*$", re.MULTILINE)
 _FILE_NAME = re.compile(r"[^\w.+-]+")
 
 
+def summary(starter: Path) -> str:
+    """Return what a starter is in one sentence: the first of the comment that it opens with."""
+    with open(starter, encoding="utf-8") as file:
+        sentence, _, _ = file.readline().removeprefix("# ").rstrip().partition(". ")
+    return sentence.removesuffix(".")
+
+
 def write_starter(starter: Path, name: str | None, path: str | None, force: bool) -> Path:
     """Write a copy of a starter.
 

@@ -191,7 +191,7 @@ USAGE: list[tuple[str, list[str], str]] = [
     ("unknown format", ["compile", "good.toml", "-f", "dfx"], 'unknown format "dfx": did you mean "dxf"?'),
     ("unknown option", ["compile", "good.toml", "--fromat", "svg"], "No such option"),
     ("unknown command", ["compil", "good.toml"], "No such command 'compil'"),
-    ("unknown starter", ["new", "--kind", "flour"], "'flour' is not one of"),
+    ("unknown starter", ["new", "--kind", "flour"], 'unknown kind "flour": did you mean "flower"?'),
 ]
 
 
