@@ -10,11 +10,12 @@ from collections.abc import Container, Sequence
 from dataclasses import replace
 from typing import TypeAlias
 
+import numpy as np
 import shapely
 
 from batik_vector.errors import Fault, RecipeError
 from batik_vector.geometry.paths.matrix import Matrix
-from batik_vector.geometry.paths.outline import Outline, bounds_of, joined
+from batik_vector.geometry.paths.outline import CONTROL, Outline, bounds_of, joined
 from batik_vector.importing.clip_paths import Clip
 from batik_vector.importing.document import Document, DrawingError, named
 from batik_vector.importing.drawing.names import Called, Named, called, own_name
@@ -22,7 +23,6 @@ from batik_vector.importing.gradients import Gradient
 from batik_vector.importing.inks import is_cloth
 from batik_vector.importing.page import MM_PER_PX, Page, page_of
 from batik_vector.importing.painting import Paint
-from batik_vector.importing.patterns import fills_page
 from batik_vector.importing.pens import Pen
 from batik_vector.importing.scene import Shape
 from batik_vector.importing.transforms import PX_PER_INCH
@@ -186,10 +186,21 @@ def _without_ground(document: Document, shapes: Chosen, page: Page) -> Chosen:
     left = [each for each in shapes if not any(is_cloth(layer) for layer in each[1].layers)]
     if len(left) == len(shapes) and len(left) > 1:
         first = left[0][0]
-        if first.fill and not first.stroke and not first.clips and fills_page(first.outline, page):
+        if first.fill and not first.stroke and not first.clips and _holds(first.outline, page):
             document.note("the first shape is as large as the page: taken as the ground, and left out")
             left.pop(0)
     return left
+
+
+def _holds(outline: Outline, page: Page) -> bool:
+    """Whether an outline, of curves or not, is a rectangle that holds the page."""
+    x0, y0, x1, y1 = bounds_of(outline)
+    slack = FRAME_SLACK * max(page.width, page.height)
+    inside = max(x0, y0) <= slack and x1 >= page.width - slack and y1 >= page.height - slack
+    corners = outline.points[outline.kinds != CONTROL]
+    if not inside or len(outline.closed) != 1 or len(corners) < 4:
+        return False
+    return bool(shapely.Polygon(corners).area >= (1 - FRAME_SLACK) * (x1 - x0) * (y1 - y0))
 
 
 def _refuse(document: Document, shape: Shape) -> None:
@@ -216,13 +227,13 @@ def _cuts_nothing(clip: Clip, shape: Shape) -> bool:
     if len(clip.parts) != 1 or clip.parts[0].within or clip.parts[0].subpaths != 1 or len(points) < 3:
         return False
     frame = shapely.Polygon(points)
-    if not frame.is_valid or frame.area < (1 - FRAME_SLACK) * frame.convex_hull.area:
+    hull = frame.convex_hull
+    if not frame.is_valid or frame.area < (1 - FRAME_SLACK) * hull.area:
         return False
     reach = shape.width / 2 * max(shape.pen.limit, 1.5) if shape.stroke else 0.0
-    x0, y0, x1, y1 = bounds_of(shape.outline)
-    slack = FRAME_SLACK * max(x1 - x0, y1 - y0)
-    body = shapely.box(x0 - reach + slack, y0 - reach + slack, x1 + reach - slack, y1 + reach - slack)
-    return bool(frame.convex_hull.covers(body))
+    slack = FRAME_SLACK * float(np.ptp(shape.outline.points, axis=0).max())
+    room = hull.buffer(slack - reach, join_style="mitre")
+    return bool(room.covers(shapely.MultiPoint(shape.outline.points)))
 
 
 def _centre(

@@ -20,7 +20,7 @@ MOST_NAMES = 12
 """Names that a message lists where none is near."""
 MOST_LOOKED_AT = 1_000_000
 """Elements that are looked at for their names, those behind every ``use`` counted each time."""
-_OWN = re.compile(r"(?:path|g|rect|circle|ellipse|layer|use|text|image|svg|polygon|polyline|line)\d*+")
+_OWN = re.compile(r"(?:path|g|rect|circle|ellipse|layer|use|svg|polygon|polyline|line)[-_]?\d*+")
 """Names that programs give where nobody else did."""
 
 
@@ -83,8 +83,13 @@ def called(trail: Sequence[ET.Element]) -> Called:
 
 def own_name(trail: Sequence[ET.Element]) -> str:
     """Return the name that a mark shows: its own, or the nearest that is no program's mere number."""
-    first = ""
-    for element in reversed(trail[1:]):
+    first, inward = "", list(trail[1:])
+    # A use stands for what it shows.
+    for at, element in enumerate(inward):
+        if local(element) == "use":
+            inward = [*inward[:at], *inward[at + 1 :], element]
+            break
+    for element in reversed(inward):
         for name in names_of(element)[:1]:
             if not _OWN.fullmatch(name):
                 return name
