@@ -22,13 +22,24 @@ from typing import Annotated, Any
 
 from batik_vector.artwork import Overlap
 from batik_vector.fields import HIDDEN, Between, LengthUnit, OneOf, Says, Several
-from batik_vector.geometry.curves import CURVES
+from batik_vector.geometry.curves import CURVES, YAxis
 from batik_vector.geometry.maps import VARIATIONS
 from batik_vector.geometry.regions import FillRule
 from batik_vector.recipe.border import BorderSpec, Corner, Ends, Facing, RailSpec
 from batik_vector.recipe.drawing import Dressing, Svg
 from batik_vector.recipe.model import ClothSpec, InkSpec, Placement, Recipe, YardageSpec
-from batik_vector.recipe.motif import Core, Dress, Element, Flower, Leaf, Petals, Pistil, Rosette, Treatment
+from batik_vector.recipe.motif import (
+    Core,
+    Dress,
+    Element,
+    Flower,
+    Leaf,
+    PathMotif,
+    Petals,
+    Pistil,
+    Rosette,
+    Treatment,
+)
 from batik_vector.recipe.outputs import OUTPUTS
 from batik_vector.tiling.cloth.spec import Align, Edge
 from batik_vector.tiling.layouts import LAYOUTS, Clear, MapSpec, Spot, Term
@@ -225,6 +236,8 @@ def page() -> str:
         lines += section(f"flower.{key}", part, 4, look)
     lines += section('kind = "rosette"', Rosette)
     lines += section("rosette.elements", Element, 4, look)
+    lines += section('kind = "path"', PathMotif, 3, look)
+    lines += words("y (of a path)", YAxis)
     lines += section('kind = "svg"', Svg)
     lines += section("svg.dress", Dressing, 4)
     lines += ["### The look of every element", ""]

@@ -196,13 +196,12 @@ def _spaced(need: Array, fixed: NDArray[np.bool_]) -> NDArray[np.bool_]:
 def _mend(points: Points, chosen: NDArray[np.bool_], tolerance: float) -> NDArray[np.bool_]:
     """Add the worst vertex of every chord that passes one farther off than the tolerance, until none does."""
     chosen = chosen.copy()
+    skipped = np.flatnonzero(~chosen)
     for _ in range(MAX_ROUNDS):
-        at = np.flatnonzero(chosen)
-        chord = np.cumsum(chosen) - 1
-        skipped = np.flatnonzero(~chosen)
         if not len(skipped):
             break
-        own = chord[skipped]
+        at = np.flatnonzero(chosen)
+        own = np.searchsorted(at, skipped) - 1
         off = deviation(points[skipped], points[at[own]], points[at[own + 1]])
         worst = np.zeros(len(at))
         np.maximum.at(worst, own, off)
@@ -212,4 +211,9 @@ def _mend(points: Points, chosen: NDArray[np.bool_], tolerance: float) -> NDArra
         # Of several vertices equally far off, the first is enough.
         first = np.r_[True, own[bad][1:] != own[bad][:-1]]
         chosen[skipped[bad][first]] = True
+        # Chords that pass nothing too far off stay as they are.
+        again = np.zeros(len(at), bool)
+        again[own[bad]] = True
+        skipped = skipped[again[own]]
+        skipped = skipped[~chosen[skipped]]
     return chosen

@@ -206,6 +206,10 @@ class Svg(Look):
         """Return the parts that are drawn, bottom first; none before the drawing has been read."""
         return tuple(part for _, part in self._parts)
 
+    def keys(self) -> tuple[str, ...]:
+        """Return the keys of the parts' tables: they have none of their own."""
+        return ("",) * len(self._parts)
+
     @functools.cached_property
     def _parts(self) -> tuple[tuple[_Source, Part], ...]:
         return tuple(found for number, mark in enumerate(self.marks) for found in self._of(number, mark))

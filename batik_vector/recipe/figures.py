@@ -51,7 +51,15 @@ def draw(motif: Motif, tolerance: float | Callable[[Points], Array]) -> list[Fig
 
 def size_of(motif: Motif) -> float:
     """Return about how far a motif reaches from its middle, in its units: 1 for those of the paper's size."""
-    return motif.size if isinstance(motif, Svg) else 1.0
+    if isinstance(motif, Svg):
+        return motif.size
+    # What is drawn by hand has any size; curves of a formula have the paper's.
+    outlines = [(part, part.curve.outline()) for part in motif.parts()]
+    reaches = [
+        abs(part.radius) + float(np.abs(outline.points).max()) if outline else 1.0
+        for part, outline in outlines
+    ]
+    return max(reaches)
 
 
 def _named(element: Element, tolerance: float | Callable[[Points], Array]) -> Figure:

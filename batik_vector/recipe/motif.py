@@ -9,11 +9,25 @@ from __future__ import annotations
 
 import functools
 from dataclasses import field, fields
-from typing import Annotated, TypeAlias
+from typing import Annotated, Any, TypeAlias
 
 from batik_vector.errors import GeometryError, unknown_name
 from batik_vector.fields import Between, OneOf, Says, check
-from batik_vector.geometry.curves import CURVES, Circle, Curve, Hypocycloid, Petal, Rose, Superellipse
+from batik_vector.geometry.curves import (
+    CURVES,
+    Circle,
+    Curve,
+    Hypocycloid,
+    OutlineCurve,
+    PathCurve,
+    Petal,
+    Rose,
+    Superellipse,
+    YAxis,
+)
+from batik_vector.geometry.curves.base import Outlined
+from batik_vector.geometry.curves.path import PATH_DATA, Coordinate, path_middle
+from batik_vector.geometry.paths.geometries import outline_of
 from batik_vector.recipe.drawing import Svg
 from batik_vector.recipe.look import Dress as Dress
 from batik_vector.recipe.look import Treatment as Treatment
@@ -42,6 +56,29 @@ class Element(Dress):
     arc: Annotated[float, Between(-360, 360), Says("degrees over which the copies are spread")] = 360.0
     spin: Annotated[float, Between(-360, 360), Says("degrees each copy is turned about itself")] = 0.0
     mirror: Annotated[bool, Says("also draw each copy's mirror image")] = False
+
+    def __post_init__(self) -> None:
+        check(self)
+        # What is drawn by hand may be open by oversight; a spiral or a wave says so by its name.
+        drawn = isinstance(self.curve, Outlined)
+        if drawn and self.treatment in (Treatment.AREA, Treatment.CUT) and not self.curve.closed:
+            raise GeometryError(
+                'an open line has no area to fill: expected treatment = "line", "stroke" or "both", '
+                "or a curve that is closed (path data end each subpath with Z)"
+            )
+
+    @classmethod
+    def from_geometry(cls, geometry: Any, **look: Any) -> Element:
+        """Return an element that draws geometry of shapely: polygons with holes, lines, several of them.
+
+        Args:
+            geometry: one, or a list or array of them, in motif units.
+            look: the other fields of an element, such as ``ink`` and ``treatment``.
+
+        Raises:
+            GeometryError: where it is none, is empty, not finite or has points.
+        """
+        return cls(curve=OutlineCurve(outline_of(geometry)), **look)
 
     @property
     def ring(self) -> Ring:
@@ -171,6 +208,10 @@ class Flower:
         """Return the elements that are drawn, bottom first."""
         return self._parts
 
+    def keys(self) -> tuple[str, ...]:
+        """Return the keys of its elements' tables, as ``parts`` has them."""
+        return tuple(part.name for part in self._parts)
+
     @functools.cached_property
     def _parts(self) -> tuple[Element, ...]:
         parts: dict[str, Leaf | Petals | Pistil | Core] = {
@@ -200,17 +241,53 @@ class Rosette:
         """Return the elements, bottom first."""
         return self.elements
 
+    def keys(self) -> tuple[str, ...]:
+        """Return the keys of their tables."""
+        return tuple(f"elements[{number}]" for number in range(len(self.elements)))
 
-MOTIFS: dict[str, type] = {"flower": Flower, "rosette": Rosette, "svg": Svg}
-"""The catalogue of kinds: each has ``parts()``."""
 
-Motif: TypeAlias = Flower | Rosette | Svg
+Place: TypeAlias = tuple[Coordinate, Coordinate]
+
+
+@frozen(kw_only=True)
+class PathMotif(Dress):
+    """A drawing of one's own, written as SVG path data: a single element of a ``path`` curve."""
+
+    d: Annotated[str, Says(PATH_DATA)]
+    y: Annotated[YAxis, Says("where their y points")] = YAxis.DOWN
+    centre: Annotated[
+        Place | None,
+        Says("the point of theirs that becomes the motif's centre; left out, the middle of the drawing"),
+    ] = None
+
+    def __post_init__(self) -> None:
+        check(self)
+        self.parts()
+
+    def parts(self) -> tuple[Element, ...]:
+        """Return the one element."""
+        return self._parts
+
+    @functools.cached_property
+    def _parts(self) -> tuple[Element, ...]:
+        centre = self.centre or path_middle(self.d)
+        return (_dressed(self, "", PathCurve(self.d, self.y, centre), 1),)
+
+    def keys(self) -> tuple[str, ...]:
+        """Return the keys of its elements' tables: there is but its own."""
+        return ("",)
+
+
+MOTIFS: dict[str, type] = {"flower": Flower, "rosette": Rosette, "path": PathMotif, "svg": Svg}
+"""The catalogue of kinds: each has ``parts()``, and ``keys()`` that say where these stand in its table."""
+
+Motif: TypeAlias = Flower | Rosette | PathMotif | Svg
 
 
 def most_contours(motif: Motif) -> tuple[str, int]:
     """Return the key in a motif's table that asks for the most contours, and how many."""
-    if isinstance(motif, Flower):
-        asked = {f"{part.name}.contours": part.contours for part in motif.parts()}
-    else:
-        asked = {f"elements[{number}].contours": part.contours for number, part in enumerate(motif.parts())}
-    return max(asked.items(), key=lambda each: each[1])
+    asked = [
+        (f"{key}.contours" if key else "contours", part.contours)
+        for key, part in zip(motif.keys(), motif.parts(), strict=True)
+    ]
+    return max(asked, key=lambda each: each[1])

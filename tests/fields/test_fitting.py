@@ -130,6 +130,9 @@ BY_HAND: dict[type, dict[str, Any]] = {
     Term: {"variation": VARIATIONS["linear"]()},
     Asked: {"name": "p4m"},
     FunctionCurve: {"function": circle},
+    CURVES["path"]: {"d": "M0 0L2 0L1 2Z"},
+    CURVES["points"]: {"points": ((0.0, 0.0), (2.0, 0.0), (1.0, 2.0))},
+    MOTIFS["path"]: {"d": "M0 0L2 0L1 2Z"},
     LAYOUTS["ifs"]: {"maps": (MapSpec(),)},
 }
 """What classes cannot do without."""

@@ -56,7 +56,7 @@ from tests.importing.drawings import DISC, MIXED, svg
         ('<circle r="9" style="r:20px"/>', "takes its r from a style"),
         ("<path d='M0 0h9v9z' style='d:path(\"M0 0h5v5z\")'/>", "takes its d from a style"),
         ('<g style="rotate:45deg"><circle r="9"/></g>', "is moved by the style rotate"),
-        ('<path d="M0 0h9q1"/>', 'path command "q" has 1 numbers'),
+        ('<path d="M0 0h9q1"/>', 'path command "q" has 1 number, expected 4'),
         ('<path d="L0 0h9"/>', 'path data begin with "L"'),
         ('<path d="M0 0 1e999 0"/>', "not finite"),
         ('<path d="M0 0H1e8V9z"/>', "reaches further than 1 km from the page"),

@@ -114,6 +114,8 @@ BEYOND = {
         "half a mirror repeat",
         "a phase beyond all bounds",
     ),
+    *("path data that break off", "a path of one point", "a path that is open", "a path out of this world"),
+    *("one point", "a corner beyond the points"),
 }
 """What no schema can say: how values hang together; and what is no TOML."""
 

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from batik_vector.geometry.curves.base import Curve
+from batik_vector.geometry.curves.base import Curve, FunctionCurve, OutlineCurve
 from batik_vector.geometry.curves.circle import Circle
-from batik_vector.geometry.curves.function import FunctionCurve, polar
 from batik_vector.geometry.curves.harmonic import Parametric, Polar
 from batik_vector.geometry.curves.hypocycloid import Hypocycloid
+from batik_vector.geometry.curves.path import PathCurve, YAxis
+from batik_vector.geometry.curves.points import PointsCurve
+from batik_vector.geometry.curves.polar_function import polar
 from batik_vector.geometry.curves.polygon import Polygon, Star
 from batik_vector.geometry.curves.rose import Petal, Rose
 from batik_vector.geometry.curves.segment import Segment
@@ -28,6 +30,8 @@ CURVES: dict[str, type[Curve]] = {
     "spiral": Spiral,
     "segment": Segment,
     "wave": Wave,
+    "path": PathCurve,
+    "points": PointsCurve,
 }
 
 __all__ = [
@@ -36,8 +40,11 @@ __all__ = [
     "Curve",
     "FunctionCurve",
     "Hypocycloid",
+    "OutlineCurve",
     "Parametric",
+    "PathCurve",
     "Petal",
+    "PointsCurve",
     "Polar",
     "Polygon",
     "Rose",
@@ -47,6 +54,7 @@ __all__ = [
     "Superellipse",
     "Trace",
     "Wave",
+    "YAxis",
     "polar",
     "trace",
 ]

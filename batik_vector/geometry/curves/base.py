@@ -2,20 +2,28 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from typing import Any, ClassVar
 
 import numpy as np
 
 from batik_vector.errors import GeometryError
 from batik_vector.fields import check
+from batik_vector.geometry.curves.function import Called, corners_of
+from batik_vector.geometry.paths.data import path_of
+from batik_vector.geometry.paths.outline import CURVE, LINE, MOVE, Outline
+from batik_vector.geometry.paths.splines import through
 from batik_vector.geometry.sampling import Array, Points
+from batik_vector.values import frozen
 
 
 class Curve:
     """A plane curve drawn once by ``at(t)`` for t in [0, 1].
 
     Curves are frozen dataclasses: comparable values whose fields carry their bounds. A new one
-    implements :meth:`at`, and where it has them :meth:`breaks`, :meth:`loops` and :meth:`turns`.
+    implements :meth:`at`, and where it has them :meth:`breaks`, :meth:`loops` and :meth:`turns`; or
+    :meth:`outline`. Who has a function, points or a path needs no class: :meth:`from_function`,
+    :meth:`from_points` and :meth:`from_path` make a curve of it.
 
     A ``closed`` curve that ends elsewhere than it begins is closed by a straight edge.
     """
@@ -46,6 +54,136 @@ class Curve:
     def turns(self) -> Array:
         """Return the angles (radians) at which the traced curve is drawn to make the whole figure."""
         return np.zeros(1)
+
+    def outline(self) -> Outline | None:
+        """Return the curve as lines and cubic Béziers, if it is made of them; it is then traced as such."""
+        return None
+
+    @staticmethod
+    def from_function(
+        function: Callable[[Any], Any],
+        *,
+        closed: bool | None = None,
+        corners: Sequence[float] | None = None,
+    ) -> Curve:
+        """Return the curve of a function of t, which runs over [0, 1] and draws it once.
+
+        Args:
+            function: takes an array of parameters, shape (n,), and returns x and y (two arrays, or one of
+                shape (n, 2)) or complex numbers x + iy; or takes one number and returns two, or a complex
+                one, which is slower.
+            closed: whether it bounds a region; left out, it does where it ends in the point it began in.
+            corners: the parameters in (0, 1) where it turns sharply; left out, they are looked for.
+
+        Raises:
+            GeometryError: where the function gives anything else.
+        """
+        at = Called.of(function)
+        if corners is None:
+            corners = corners_of(at)
+        if closed is None:
+            ends = at(np.array([0.0, 0.5, 1.0]))
+            closed = bool(np.abs(ends[2] - ends[0]).max() <= MEET * np.abs(ends).max())
+        return FunctionCurve(at, tuple(corners), closed)
+
+    @staticmethod
+    def from_points(
+        points: Any, *, smooth: bool = False, closed: bool = True, corners: Sequence[int] = ()
+    ) -> Curve:
+        """Return the curve through points, shape (n, 2): straight from each to the next, or smooth.
+
+        A smooth one is a cubic spline (see :mod:`~batik_vector.geometry.paths.splines`) that turns sharply at
+        the points numbered in ``corners`` alone.
+
+        Raises:
+            GeometryError: for points that are not finite, too few of them, and corners that are none.
+        """
+        return OutlineCurve(through(points, smooth, closed, corners))
+
+    @staticmethod
+    def from_path(d: str, *, y: str = "down", centre: tuple[float, float] = (0.0, 0.0)) -> Curve:
+        """Return what SVG path data draw; ``centre`` is the point of theirs that becomes the origin.
+
+        Args:
+            d: such as ``"M0 0C1 0 1 1 0 1Z"``; subpaths are one curve, the fill rule makes holes.
+            y: ``"down"``, as SVG has it, or ``"up"``.
+            centre: as the data have it.
+
+        Raises:
+            GeometryError: where they are no path data, or draw nothing.
+        """
+        return OutlineCurve(path_of(d, y == "up", centre))
+
+
+MEET = 1e-9
+"""A function that ends this near to where it began, as a share of its size, is closed."""
+
+
+@frozen
+class FunctionCurve(Curve):
+    """A curve whose points at t in [0, 1] a function returns, shape (n, 2).
+
+    ``stops`` are the parameters of its corners and cusps, ascending, in (0, 1). A closed curve ends
+    where it begins. :meth:`Curve.from_function` finds out both, and takes more functions.
+    """
+
+    function: Callable[[Array], Points]
+    stops: tuple[float, ...] = ()
+    closed: bool = True  # type: ignore[misc]
+
+    def at(self, t: Array) -> Points:
+        """Return the points at ``t``."""
+        return self.function(t)
+
+    def breaks(self) -> Array:
+        """The stops given."""
+        return np.array(self.stops, float)
+
+
+class Outlined(Curve):
+    """A curve that is an outline: lines and cubic Béziers, in one subpath or several, each closed or open.
+
+    Its parameter gives every line and every cubic as much as any other. ``closed`` says whether all its
+    subpaths are.
+    """
+
+    def outline(self) -> Outline:
+        """Return the outline."""
+        raise NotImplementedError
+
+    @property
+    def closed(self) -> bool:  # type: ignore[override]
+        """Whether every subpath is closed."""
+        return bool(self.outline().closed.all())
+
+    def at(self, t: Array) -> Points:
+        """Return the points at ``t``."""
+        return self.outline().shut().at(t)
+
+    def breaks(self) -> Array:
+        """Where lines and cubics meet."""
+        kinds = self.outline().shut().kinds
+        pieces = int(((kinds == LINE) | (kinds == CURVE)).sum())
+        return np.arange(1, pieces) / pieces
+
+    def loops(self) -> list[tuple[float, float]]:
+        """One for each closed subpath."""
+        shut = self.outline().shut()
+        ends = np.cumsum((shut.kinds == LINE) | (shut.kinds == CURVE))
+        begins = np.flatnonzero(shut.kinds == MOVE)
+        edges = np.append(ends[begins], ends[-1]) / ends[-1]
+        return [(float(edges[i]), float(edges[i + 1])) for i in np.flatnonzero(shut.closed)]
+
+
+@frozen
+class OutlineCurve(Outlined):
+    """A curve from an outline that is at hand."""
+
+    subpaths: Outline
+
+    def outline(self) -> Outline:
+        """Return the outline."""
+        return self.subpaths
 
 
 def points_at(curve: Curve, t: Array) -> Points:

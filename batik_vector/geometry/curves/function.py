@@ -1,45 +1,107 @@
-"""A curve from any Python function: for notebooks and plug-ins, not for recipes, which hold no code."""
+"""Functions as people write them: called in bulk, and their curves searched for sharp turns."""
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
-from batik_vector.geometry.curves.base import Curve
+from batik_vector.errors import GeometryError
+from batik_vector.fields import given
 from batik_vector.geometry.sampling import Array, Points
 from batik_vector.values import frozen
 
+PROBE = np.array([0.137, 0.285, 0.439, 0.611, 0.853])
+"""Where a function is tried, to see what it takes and gives. Five, so that x and y are told from points."""
+PIECES = 512
+"""Pieces in which corners are looked for: of two in the same one, one is found."""
+TURN = 0.02
+"""A corner turns by more (radians)."""
+HALVINGS = 30
+"""Each halves the stretch in which a corner lies; what is left of one in 512 is 2e-12."""
+
 
 @frozen
-class FunctionCurve(Curve):
-    """A curve whose points at t in [0, 1] a function returns, shape (n, 2).
+class Called:
+    """A function of t called with arrays, whatever it takes and gives: see ``Curve.from_function``."""
 
-    ``stops`` are the parameters of its corners and cusps, ascending, in (0, 1). A closed curve ends
-    where it begins.
+    function: Callable[[Any], Any]
+    in_bulk: bool
+
+    @staticmethod
+    def of(function: Callable[[Any], Any]) -> Called:
+        """Return a function, having tried which way it can be called.
+
+        Raises:
+            GeometryError: where it gives no points either way.
+        """
+        given(function, Callable[[Any], Any], "function")
+        bulk, single = Called(function, True), Called(function, False)
+        try:
+            if bulk._tried().shape == (len(PROBE), 2):
+                return bulk
+        except (TypeError, ValueError):  # math's functions take no arrays, nor does an if
+            pass
+        if single._tried().shape != (len(PROBE), 2):
+            raise GeometryError("the function of t gives no points, expected x and y, or a complex number")
+        return single
+
+    def _tried(self) -> Array:
+        with warnings.catch_warnings(), np.errstate(all="ignore"):
+            warnings.simplefilter("ignore")
+            return self(PROBE)
+
+    def __call__(self, t: Array) -> Points:
+        """Return the points at parameters, shape (n, 2)."""
+        if self.in_bulk:
+            return _points(self.function(t), len(t))
+        found = [_points(self.function(each), 1) for each in t.tolist()]
+        return np.concatenate(found) if found else np.empty((0, 2))
+
+
+def _points(found: Any, count: int) -> Points:
+    """Return what a function gave for ``count`` parameters as points."""
+    if isinstance(found, tuple | list) and len(found) == 2 and count != 2:
+        # A constant stands for as many.
+        x, y = np.broadcast_arrays(*(np.asarray(each) for each in found), np.empty(count))[:2]
+        found = np.column_stack([x, y])
+    found = np.asarray(found)
+    if found.dtype.kind == "c":
+        found = np.stack([found.real, found.imag], axis=-1).reshape(-1, 2)
+    return np.asarray(found)
+
+
+def corners_of(at: Callable[[Array], Points]) -> tuple[float, ...]:
+    """Return the parameters within (0, 1) where a curve turns sharply, ascending.
+
+    Pieces that turn are halved again and again towards where they turn the most: what still turns there is
+    a corner, what no longer does is a bend.
     """
+    t = np.linspace(0, 1, PIECES + 1)
+    suspect = _turn(at(t)) > TURN
+    low, high = t[:-2][suspect], t[2:][suspect]
+    quarters = np.arange(5) / 4
+    for _ in range(HALVINGS):
+        if not len(low):
+            return ()
+        inner = low[:, None] + (high - low)[:, None] * quarters
+        points = at(inner.ravel()).reshape(-1, 5, 2)
+        turns = np.stack([_turn(points[:, k : k + 3].reshape(-1, 2))[::3] for k in range(3)], axis=1)
+        # Of equals the middle one: a corner in the middle stays there to the bit.
+        best = (turns + np.array([0, 1e-6, 0])).argmax(axis=1)
+        row = np.arange(len(low))
+        sharp = turns[row, best] > TURN
+        low, high = inner[row, best][sharp], inner[row, best + 2][sharp]
+    found = np.unique((low + high) / 2)
+    found = found[(found > 1e-9) & (found < 1 - 1e-9)]
+    apart = np.append(True, np.diff(found) > 1e-9)[: len(found)]
+    return tuple(found[apart].tolist())
 
-    function: Callable[[Array], Points]
-    stops: tuple[float, ...] = ()
-    closed: bool = True  # type: ignore[misc]
 
-    def at(self, t: Array) -> Points:
-        """Return the points at ``t``."""
-        return self.function(t)
-
-    def breaks(self) -> Array:
-        """The stops given."""
-        return np.array(self.stops, float)
-
-
-def polar(
-    radius: Callable[[Array], Array], period: float = 2 * np.pi, stops: tuple[float, ...] = ()
-) -> FunctionCurve:
-    """Return the closed curve r = radius(θ) for θ in [0, period); ``stops`` are angles of corners."""
-
-    def at(t: Array) -> Points:
-        angle = t * period
-        r = radius(angle)
-        return np.column_stack([r * np.cos(angle), r * np.sin(angle)])
-
-    return FunctionCurve(at, tuple(stop / period for stop in stops))
+def _turn(points: Points) -> Array:
+    """Return by how much polylines turn at their inner points, in radians; where they rest, not at all."""
+    step = np.diff(points, axis=0)
+    cross = step[:-1, 0] * step[1:, 1] - step[:-1, 1] * step[1:, 0]
+    return np.asarray(np.abs(np.arctan2(cross, (step[:-1] * step[1:]).sum(axis=1))))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import compress
 from typing import Annotated
 
 import numpy as np
@@ -11,6 +12,8 @@ from numpy.typing import NDArray
 from batik_vector.errors import GeometryError
 from batik_vector.fields import Between, given
 from batik_vector.geometry.curves.base import Curve, knots_of, points_at
+from batik_vector.geometry.paths.outline import Outline
+from batik_vector.geometry.paths.sampling import sampled
 from batik_vector.geometry.sampling import REFINE_SHARE, Array, Indices, Points, deviation, refine, thin
 from batik_vector.values import frozen
 
@@ -69,6 +72,9 @@ def trace(curve: Curve, tolerance: float | Callable[[Points], Array]) -> Trace:
     given(curve, Curve, "curve")
     if not callable(tolerance):
         tolerance = given(tolerance, Annotated[float, Between(*TOLERANCES)], "tolerance")
+    outline = curve.outline()
+    if outline is not None:
+        return _outlined(curve, outline, tolerance)
     t, points = _sample(curve, tolerance)
     loops = curve.loops()
     strand = _closed(points) if curve.closed else points
@@ -79,6 +85,15 @@ def trace(curve: Curve, tolerance: float | Callable[[Points], Array]) -> Trace:
         strands.append(turned)
         rings += [turned] if single else [_closed(turned[_within(t, loop)]) for loop in loops]
     return Trace(strands, [ring for ring in rings if len(ring) > 3])
+
+
+def _outlined(curve: Curve, outline: Outline, tolerance: float | Callable[[Points], Array]) -> Trace:
+    """Trace a curve that is made of lines and cubic Béziers, all at once."""
+    lines = sampled(outline, tolerance)
+    strands, drawn = lines.parts(), lines.lines()
+    if not drawn.any():
+        raise GeometryError(f"{type(curve).__name__}: draws a mere point, expected a line")
+    return Trace(list(compress(strands, drawn)), list(compress(strands, lines.bounding())))
 
 
 def _sample(curve: Curve, tolerance: float | Callable[[Points], Array]) -> tuple[Array, Points]:

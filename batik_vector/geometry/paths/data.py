@@ -6,6 +6,7 @@ radius (a twentieth of a µm at a metre).
 
 from __future__ import annotations
 
+import functools
 import math
 import re
 from collections.abc import Callable, Iterator, Sequence
@@ -15,6 +16,8 @@ from itertools import compress
 import numpy as np
 from numpy.typing import NDArray
 
+from batik_vector.errors import GeometryError
+from batik_vector.fields.fitting import shown
 from batik_vector.geometry.paths.outline import CONTROL, CURVE, EMPTY, LINE, MOVE, Outline
 from batik_vector.geometry.sampling import Points
 from batik_vector.patterns import NUMBER, numbers_in
@@ -46,6 +49,35 @@ def parse_path(text: str) -> Outline:
     for letter, numbers in _tokens(text) or _commands(text):
         pen.command(letter, numbers)
     return pen.outline()
+
+
+FARTHEST = 1e6
+"""Coordinates of a curve at most: floats then tell places apart to a part in 10¹⁰ of them."""
+
+
+@functools.lru_cache(maxsize=64)
+def path_of(text: str, upward: bool = False, centre: tuple[float, float] = (0.0, 0.0)) -> Outline:
+    """Return the outline that path data draw, y up. Kept: a recipe asks for it again and again.
+
+    Args:
+        text: path data.
+        upward: whether their y points up; as SVG has it, it points down.
+        centre: the point of theirs that becomes the origin.
+
+    Raises:
+        GeometryError: where they cannot be read, draw nothing, or reach too far.
+    """
+    try:
+        outline = parse_path(text)
+    except ValueError as error:
+        raise GeometryError(f"d = {shown(text)}: {error}") from None
+    if not len(outline.points) or not np.ptp(outline.points, axis=0).any():
+        raise GeometryError(f'd = {shown(text)} draws nothing, expected path data such as "M0 0L2 0L1 2Z"')
+    if (far := float(np.abs(outline.points).max())) > FARTHEST:
+        words = f"reaches as far as {far:.3g}, expected coordinates up to {FARTHEST:,.0f}"
+        raise GeometryError(f"d = {shown(text)} {words}")
+    flip = 1.0 if upward else -1.0
+    return outline.moved((1.0, 0.0, 0.0, flip, -centre[0], -flip * centre[1]))
 
 
 def _tokens(text: str) -> list[tuple[str, Points]] | None:
@@ -112,8 +144,9 @@ def _numbers(letter: str, text: str) -> list[float]:
         raise ValueError(f'path data "{letter}{text[:40]}" cannot be read')
     takes = _TAKES[command]
     if (len(read) % takes if takes else len(read)) or (takes and not read):
-        some = f"{takes} numbers, or a multiple" if takes else "no number"
-        raise ValueError(f'path command "{letter}" has {len(read)} numbers, expected {some}')
+        some = f"{takes} or a multiple" if takes else "none"
+        count = f"{len(read)} number{'' if len(read) == 1 else 's'}"
+        raise ValueError(f'path command "{letter}" has {count}, expected {some}')
     return read
 
 

@@ -4,31 +4,87 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from batik_vector.geometry.paths.cubics import bernstein, turns_of
+from batik_vector.geometry.paths.cubics import bernstein, evaluated, turns_of
 from batik_vector.geometry.paths.matrix import Matrix, moved
-from batik_vector.geometry.sampling import Points
+from batik_vector.geometry.sampling import Array, Points
 from batik_vector.values import frozen
 
 MOVE, LINE, CONTROL, CURVE = range(4)
 """What a point is: where a subpath begins, the end of a line, a handle, the end of a cubic Bézier, whose
 two handles stand before it."""
 
+JOINED = 1e-9
+"""Ends of a closed subpath this near to one another, as a share of the outline's size, are one point."""
+
 
 @frozen(eq=False)
 class Outline:
-    """Subpaths: ``points`` of shape (n, 2), ``kinds`` of shape (n,), ``closed`` of one for each MOVE."""
+    """Subpaths: ``points`` of shape (n, 2), ``kinds`` of shape (n,), ``closed`` of one for each MOVE.
+
+    Outlines of the same numbers are equal, so that curves may hold them as values.
+    """
 
     points: Points
     kinds: NDArray[np.uint8]
     closed: NDArray[np.bool_]
 
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Outline) and self._bytes == other._bytes
+
+    def __hash__(self) -> int:
+        return self._hash
+
+    @cached_property
+    def _bytes(self) -> tuple[bytes, bytes, bytes]:
+        return self.points.tobytes(), self.kinds.tobytes(), self.closed.tobytes()
+
+    @cached_property
+    def _hash(self) -> int:
+        return hash(self._bytes)
+
     def moved(self, matrix: Matrix) -> Outline:
         """Return the outline under an affine map."""
         return replace(self, points=moved(self.points, matrix))
+
+    def at(self, t: Array) -> Points:
+        """Return the points at ``t`` in [0, 1]: as much of it for each line and each cubic in turn.
+
+        Where a subpath ends, the next one begins.
+        """
+        end = np.flatnonzero((self.kinds == LINE) | (self.kinds == CURVE))
+        step = t * len(end)
+        whole = np.rint(step)
+        step = np.where(np.abs(step - whole) < 1e-12 * len(end), whole, step)
+        number = np.minimum(np.floor(step).astype(np.intp), len(end) - 1)
+        part, node = step - number, end[number]
+        start = self.points[np.where(self.kinds[node] == CURVE, node - 3, node - 1)]
+        places = start * (1 - part[:, None]) + self.points[node] * part[:, None]
+        bent = self.kinds[node] == CURVE
+        control = self.points[node[bent, None] + np.array([-3, -2, -1, 0])]
+        places[bent] = evaluated(control, part[bent])
+        return np.asarray(places)
+
+    def shut(self, reach: float = 0.0) -> Outline:
+        """Return the outline with closed subpaths that end where they begin, by a line if need be.
+
+        Ends nearer to one another than ``reach``, or than a part in 10⁹ of the outline's size, are one point.
+        """
+        first = np.flatnonzero(self.kinds == MOVE)
+        last = np.append(first[1:], len(self.kinds)) - 1
+        first, last = first[self.closed], last[self.closed]
+        reach = max(JOINED * float(np.ptp(self.points, axis=0).max(initial=0.0)), reach)
+        gap = self.points[last] - self.points[first]
+        near = np.hypot(gap[:, 0], gap[:, 1]) <= reach
+        points = self.points.copy()
+        points[last[near]] = points[first[near]]
+        apart = last[~near] + 1
+        kinds = np.insert(self.kinds, apart, LINE)
+        return Outline(np.insert(points, apart, points[first[~near]], axis=0), kinds, self.closed)
 
 
 EMPTY = Outline(np.empty((0, 2)), np.empty(0, np.uint8), np.empty(0, bool))

@@ -1,4 +1,4 @@
-"""From outlines to polylines: cubics are sampled to a tolerance, all subpaths of a drawing at once."""
+"""From outlines to polylines: curves are divided as a tolerance needs, all at once, and corners stay."""
 
 from __future__ import annotations
 
@@ -7,35 +7,59 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from batik_vector.errors import TooLargeError
 from batik_vector.geometry.paths.cubics import evaluated, needed
-from batik_vector.geometry.paths.outline import CONTROL, CURVE, MOVE, Outline
-from batik_vector.geometry.sampling import REFINE_SHARE, Array, Indices, Points, refine, thin
+from batik_vector.geometry.paths.outline import CURVE, LINE, MOVE, Outline
+from batik_vector.geometry.sampling import MAX_POINTS, REFINE_SHARE, Array, Indices, Points, refine, thin
 from batik_vector.values import frozen
 
+Mask = NDArray[np.bool_]
+
+SMOOTH = 0.01
+"""Cubics that meet under less than this angle (radians) run on; a sharper joint is a corner and stays."""
+JOINED_SHARE = 1e-3
+"""Ends of a closed subpath this near, as a share of the tolerance, are one point: files cut off numbers."""
 LEAST_CORNERS = 6
-"""Vertices that a bent subpath keeps however coarse the tolerance."""
-STRAIGHT = 1e-9
-"""Sine of a turn up to which a subpath goes straight on."""
-JOINED = 1e-9
-"""Ends of a closed subpath this near to one another, as a share of the drawing's size, are one point."""
+"""Vertices that a bent ring keeps however coarse the tolerance."""
+FIRST = 12
+"""Pieces into which the curves of a subpath are divided at least, before vertices are chosen among them."""
+STRAIGHT = 1e-12
+"""Edges whose directions differ by less (radians) lie on one line."""
 
 
 @frozen(eq=False)
 class Polylines:
-    """Subpaths as polylines: number i is ``points[offsets[i]:offsets[i + 1]]``.
-
-    A ``closed`` one repeats its first point at its end.
-    """
+    """Polylines: number i is ``points[offsets[i]:offsets[i + 1]]``; closed ones end where they begin."""
 
     points: Points
     offsets: Indices
-    closed: NDArray[np.bool_]
+    closed: Mask
+
+    def parts(self) -> list[Points]:
+        """Return them one by one, each of shape (n, 2)."""
+        return np.split(self.points, self.offsets[1:-1]) if len(self.closed) else []
+
+    def lines(self) -> Mask:
+        """Return which of them are no mere points."""
+        low, high = (each.reduceat(self.points, self.offsets[:-1]) for each in (np.minimum, np.maximum))
+        return np.asarray((high > low).any(axis=1))
+
+    def bounding(self) -> Mask:
+        """Return which of them bound a region: closed ones that do not stay on one line."""
+        step = np.diff(self.points, axis=0)
+        turn = np.abs(step[:-1, 0] * step[1:, 1] - step[:-1, 1] * step[1:, 0])
+        length = np.hypot(step[:, 0], step[:, 1])
+        bent = np.zeros(len(self.points), bool)
+        bent[1:-1] = turn > STRAIGHT * length[:-1] * length[1:]
+        # What is between two polylines is no corner of either.
+        bent[self.offsets[:-1]] = bent[self.offsets[1:] - 1] = False
+        return self.closed & (_counted(bent, self.offsets) > 0)
 
 
 def sampled(outline: Outline, tolerance: float | Callable[[Points], Array]) -> Polylines:
     """Return an outline as polylines from which it stands off by no more than a tolerance.
 
-    Straight stretches keep no vertices but those that their neighbours need.
+    The ends of its lines stay, and the places where its curves turn sharply.
 
     Args:
         outline: subpaths in any unit.
@@ -45,62 +69,129 @@ def sampled(outline: Outline, tolerance: float | Callable[[Points], Array]) -> P
     Raises:
         TooLargeError: where it would need too many vertices.
     """
-    dense = _dense(outline, tolerance)
-    if callable(tolerance) or not len(dense.points):
-        return dense
-    keep = thin(dense.points, dense.offsets, tolerance * (1 - REFINE_SHARE))
-    _spare(keep, dense)
-    ends = np.cumsum(keep)[dense.offsets[1:] - 1]
-    return Polylines(dense.points[keep], np.append(0, ends).astype(np.intp), dense.closed)
+    dense, fixed = _dense(outline.shut(0.0 if callable(tolerance) else JOINED_SHARE * tolerance), tolerance)
+    if not callable(tolerance) and len(dense.points):
+        keep = thin(dense.points, dense.offsets, tolerance * (1 - REFINE_SHARE), fixed)
+        _keep_shapes(dense, fixed, keep)
+        dense = _taken(dense, keep)
+    return dense
 
 
-def _dense(outline: Outline, tolerance: float | Callable[[Points], Array]) -> Polylines:
-    """Return dense polylines, which know where the outline bends."""
-    end = np.flatnonzero(outline.kinds == CURVE)
+def _dense(outline: Outline, tolerance: float | Callable[[Points], Array]) -> tuple[Polylines, Mask]:
+    """Return an outline as dense polylines, and which of their vertices have to stay."""
+    kinds = outline.kinds
+    end = np.flatnonzero(kinds == CURVE)
     control = outline.points[end[:, None] + np.array([-3, -2, -1, 0])]
-    piece, t = _parameters(control, tolerance)
-    plain = np.flatnonzero(outline.kinds != CONTROL)
-    begins = np.flatnonzero(outline.kinds == MOVE)
-    first = begins[outline.closed]
-    last = np.append(begins[1:], len(outline.kinds)) - 1
-    # What closes a subpath comes behind its last point, where that lies elsewhere.
-    gap = np.abs(outline.points[last] - outline.points[begins]).max(axis=1, initial=0.0)
-    size = float(np.abs(outline.points).max(initial=0.0))
-    ends_apart = (gap > JOINED * size)[outline.closed]
-    points = outline.points.copy()
-    points[last[outline.closed][~ends_apart]] = points[first[~ends_apart]]
-    node = np.concatenate([plain, end[piece], last[outline.closed][ends_apart]])
-    at = np.concatenate([np.ones(len(plain)), t, np.full(int(ends_apart.sum()), 2.0)])
-    places = np.concatenate([points[plain], evaluated(control[piece], t), points[first[ends_apart]]])
-    order = np.lexsort((at, node))
-    starts = np.flatnonzero(outline.kinds[node[order]] == MOVE)
-    return Polylines(places[order], np.append(starts, len(order)).astype(np.intp), outline.closed)
+    owner, at = _divided(control, _least(kinds, end), tolerance)
+    # Where each node's points begin: one for a move or a line, for a curve all behind its start.
+    count = np.zeros(len(kinds), np.intp)
+    count[(kinds == MOVE) | (kinds == LINE)] = 1
+    count[end] = np.bincount(owner, minlength=len(end))
+    node = np.repeat(np.arange(len(kinds)), count)
+    points = outline.points[node]
+    curved = np.flatnonzero(kinds[node] == CURVE)
+    whole = at == 1.0
+    points[curved[~whole]] = evaluated(control[owner[~whole]], at[~whole])
+    fixed = np.zeros(len(node), bool)
+    fixed[np.cumsum(count)[_corners(outline, control, end)] - 1] = True
+    offsets = np.append(np.flatnonzero(kinds[node] == MOVE), len(node)).astype(np.intp)
+    return _clean(Polylines(points, offsets, outline.closed), fixed)
 
 
-def _parameters(control: Points, tolerance: float | Callable[[Points], Array]) -> tuple[Indices, Array]:
-    """Return where cubics are divided between their ends: number of the cubic, parameter."""
-    bent = np.arange(len(control))
-    fine = tolerance if callable(tolerance) else tolerance * REFINE_SHARE
-    if not callable(fine):
-        bent = np.flatnonzero(needed(control, fine) > 1)
-    curved = control[bent]
-
-    def evaluate(piece: Indices, t: Array) -> Points:
-        return evaluated(curved[piece], t)
-
-    begin, finish = np.zeros(len(bent)), np.ones(len(bent))
-    piece, t = refine(evaluate, np.arange(len(bent)), begin, finish, fine)
-    inner = t > 0
-    return bent[piece[inner]], t[inner]
+def _least(kinds: NDArray[np.uint8], end: Indices) -> Indices:
+    """Return into how many pieces each cubic is divided at least."""
+    subpath = np.cumsum(kinds == MOVE) - 1
+    segments = np.bincount(subpath[(kinds == LINE) | (kinds == CURVE)], minlength=int((kinds == MOVE).sum()))
+    return np.asarray(-(-FIRST // np.maximum(segments[subpath[end]], 1)), np.intp)
 
 
-def _spare(keep: NDArray[np.bool_], dense: Polylines) -> None:
-    """Let small bent subpaths keep a shape, in place, where a coarse tolerance would leave a sliver."""
-    low, high = dense.offsets[:-1], dense.offsets[1:] - 1
-    left = np.add.reduceat(keep, low, dtype=np.intp)
-    few = np.flatnonzero((left <= LEAST_CORNERS) & (left <= high - low))
-    share = np.linspace(0, 1, LEAST_CORNERS + 1)[1:-1]
-    at = np.rint(low[few, None] + (high - low)[few, None] * share).astype(np.intp).ravel()
-    at = at[~keep[at]]
-    (x, y), (along, up) = (dense.points[at + k].T - dense.points[at].T for k in (-1, 1))
-    keep[at[np.abs(x * up - y * along) > STRAIGHT * (x * x + y * y + along * along + up * up)]] = True
+def _divided(
+    control: Points, least: Indices, tolerance: float | Callable[[Points], Array]
+) -> tuple[Indices, Array]:
+    """Return the parameters at which cubics are divided, without the starts and with the ends."""
+    if callable(tolerance):
+
+        def evaluate(piece: Indices, t: Array) -> Points:
+            return evaluated(control[piece], t)
+
+        each = np.arange(len(control))
+        begun, rank = _ranked(each, least)
+        owner, at = refine(evaluate, begun, (rank - 1) / least[begun], rank / least[begun], tolerance)
+        # From the starts of pieces to their ends.
+        last = np.append(owner[1:] != owner[:-1], True)[: len(owner)]
+        return owner, np.where(last, 1.0, np.append(at[1:], 1.0)[: len(owner)])
+    pieces = np.maximum(np.ceil(needed(control, tolerance * REFINE_SHARE) - 1e-6), least)
+    if (total := float(pieces.sum())) > MAX_POINTS:
+        raise TooLargeError(f"its curves would need {total:.3g} vertices at this tolerance")
+    owner, rank = _ranked(np.arange(len(control)), pieces.astype(np.intp))
+    return owner, rank / pieces[owner]
+
+
+def _ranked(each: Indices, count: Indices) -> tuple[Indices, Indices]:
+    """Return things repeated, each as often as said, and for each repeat its number from one on."""
+    owner = np.repeat(each, count)
+    return owner, np.arange(len(owner)) - np.repeat(np.cumsum(count) - count, count) + 1
+
+
+def _corners(outline: Outline, control: Points, end: Indices) -> Mask:
+    """Return at which nodes an outline has vertices that stay: ends of lines, and joints that turn."""
+    kinds = outline.kinds
+    corner = kinds == LINE
+    # Where a line begins.
+    corner[np.flatnonzero(kinds == LINE) - 1] = True
+    corner[kinds == MOVE] = True
+    before = np.flatnonzero(end[1:] == end[:-1] + 3)
+    if len(before):
+        arriving, leaving = _tangents(control)
+        a, b = arriving[before], leaving[before + 1]
+        cross, dot = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0], (a * b).sum(axis=1)
+        corner[end[before]] = np.abs(np.arctan2(cross, dot)) > SMOOTH
+    return np.asarray(corner)
+
+
+def _tangents(control: Points) -> tuple[Points, Points]:
+    """Return the directions in which cubics end and begin; where a handle has no length, of the next one."""
+    out = control[:, 1:] - control[:, :1]
+    back = control[:, 3:] - control[:, 2::-1]
+    found = []
+    for way in (back, out):
+        moves = (way != 0).any(axis=2)
+        found.append(way[np.arange(len(way)), moves.argmax(axis=1)])
+    return found[0], found[1]
+
+
+def _clean(lines: Polylines, fixed: Mask) -> tuple[Polylines, Mask]:
+    """Leave out points that repeat the one before, but for those of polylines that are a mere point."""
+    points = lines.points
+    again = np.zeros(len(points), bool)
+    again[1:] = (points[1:] == points[:-1]).all(axis=1)
+    again[lines.offsets[:-1]] = False
+    if not again.any():
+        return lines, fixed
+    # A corner that is left out hands on that it stays.
+    head = np.maximum.accumulate(np.where(again, 0, np.arange(len(points))))
+    fixed = fixed.copy()
+    np.logical_or.at(fixed, head, fixed)
+    count = _counted(~again, lines.offsets)
+    again &= np.repeat(count > 1, np.diff(lines.offsets))
+    return _taken(lines, ~again), fixed[~again]
+
+
+def _keep_shapes(lines: Polylines, fixed: Mask, keep: Mask) -> None:
+    """Let bent rings keep a shape, in place, where a coarse tolerance would leave them a sliver."""
+    first, last = lines.offsets[:-1], lines.offsets[1:] - 1
+    straight = _counted(fixed, lines.offsets) > last - first
+    low = lines.closed & (_counted(keep, lines.offsets) <= LEAST_CORNERS) & ~straight
+    part = np.linspace(0, 1, LEAST_CORNERS + 1)
+    keep[np.rint(first[low, None] + (last - first)[low, None] * part).astype(np.intp)] = True
+
+
+def _taken(lines: Polylines, keep: Mask) -> Polylines:
+    """Return polylines with some of their vertices."""
+    offsets = np.append(0, np.cumsum(_counted(keep, lines.offsets))).astype(np.intp)
+    return Polylines(lines.points[keep], offsets, lines.closed)
+
+
+def _counted(which: Mask, offsets: Indices) -> Indices:
+    """Return how many vertices of each polyline are meant."""
+    return np.asarray(np.diff(np.append(0, np.cumsum(which))[offsets]), np.intp)

@@ -12,7 +12,9 @@ from batik_vector.geometry.curves import (
     Curve,
     Hypocycloid,
     Parametric,
+    PathCurve,
     Petal,
+    PointsCurve,
     Polar,
     Polygon,
     Rose,
@@ -54,6 +56,13 @@ EXAMPLES: list[Curve] = [
     Segment(),
     Wave(),
     Wave(6, 0.1, 40.0),
+    PathCurve("M0 0C1 0 1 1 0 1C-2 2 -2 -1 0 0Z"),
+    PathCurve("M3 0A3 2 20 0 1 -3 0L-1 -2Q0 -3 1 -1Z"),
+    PointsCurve(((0, 0), (3, 1), (4, 0), (3, -1))),
+    PointsCurve(((0, 0), (3, 1), (4, 0), (3, -1)), smooth=True),
+    PointsCurve(((0, 0), (3, 1), (4, 0), (3, -1)), smooth=True, corners=(0, 2)),
+    PointsCurve(((0, 0), (1, 1), (2, -1), (5, 0)), smooth=True, closed=False),
+    Curve.from_function(lambda t: (t, np.abs(np.sin(9 * t)))),
     polar(lambda angle: 1 - 0.5 * np.sin(angle)),
 ]
 
