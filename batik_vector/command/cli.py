@@ -31,6 +31,8 @@ KINDS = (
     "four-square",
     "half-drop",
     "kawung",
+    "mega-mendung",
+    "own-drawing",
     "rosette",
     "toss",
     "truntum",
