@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from batik_vector.geometry.paths.data import drawn
 from batik_vector.geometry.paths.outline import Outline, box
+from batik_vector.geometry.paths.pen import drawn
 
 
 def ellipse(cx: float, cy: float, rx: float, ry: float) -> Outline:
