@@ -251,7 +251,9 @@ def _check_striping(tile: Drawing, axis: int, ledger: _Ledger) -> float:
 def _check_symmetry(artwork: Artwork, asked: Asked | None, ledger: _Ledger) -> str:
     """Return the group found; accuse it of being another than the one asked for."""
     stretch = max(STRETCH, asked.stretch if asked else 0.0)
-    found = found_group(artwork.layers, artwork.cell, artwork.tolerance, stretch=stretch)
+    found = found_group(
+        artwork.layers, artwork.cell, artwork.tolerance, stretch=stretch, misses=asked is not None
+    )
     # A page that is plain has every symmetry.
     if asked is None or asked.allows(found.name) or (found.note == PLAIN and not asked.exactly):
         return found.name

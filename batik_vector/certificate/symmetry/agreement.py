@@ -45,7 +45,7 @@ FINE = 0.5
 CHUNK = 16_384
 """Points looked up in one go, which keeps them in the processor's cache."""
 
-MEASURED = 256
+MEASURED = 64
 """Points beyond reach whose distance is worked out one by one where a failure is reported."""
 
 

@@ -68,7 +68,12 @@ NEARLY, MISSES = 0.5, 3
 
 
 def found_group(
-    layers: Sequence[Layer], cell: Cell, tolerance: float = 0.02, *, stretch: float = STRETCH
+    layers: Sequence[Layer],
+    cell: Cell,
+    tolerance: float = 0.02,
+    *,
+    stretch: float = STRETCH,
+    misses: bool = True,
 ) -> FoundGroup:
     """Return the wallpaper group of a tile, from its geometry.
 
@@ -79,6 +84,7 @@ def found_group(
         tolerance: how far (mm) a drawn edge may stand from the true curve.
         stretch: how far a lattice may be from one that a rotation or reflection allows, and still count as
             that lattice stretched (0.01 is one percent).
+        misses: whether the operations that nearly hold are wanted, which takes about as long again.
     """
     drawn = outline(layers, cell)
     if _plain(drawn, cell):
@@ -89,7 +95,7 @@ def found_group(
     slack = 2 * tolerance + 4 * GRID_MM
     # Where a tolerance is coarse for a small tile, everything would be found to be like everything.
     finest = float(np.hypot(*basis_of(cell)).min()) / COARSE
-    return _Search(drawn, cell, min(slack, finest), stretch).result()
+    return _Search(drawn, cell, min(slack, finest), stretch).result(misses)
 
 
 def _plain(drawn: Outline, cell: Cell) -> bool:
@@ -120,8 +126,8 @@ class _Search:
         self.refused: list[tuple[float, Whole, Matrix, Vector]] = []
         self.deviation = 0.0
 
-    def result(self) -> FoundGroup:
-        """Return the group."""
+    def result(self, misses: bool) -> FoundGroup:
+        """Return the group, and if so asked what it narrowly misses."""
         spectra = Spectra(self.drawn, self.basis)
         lattice = self._finest(spectra)
         times = round(abs(float(np.linalg.det(self.basis) / np.linalg.det(lattice))))
@@ -145,7 +151,7 @@ class _Search:
             deviation=self.deviation,
             stretch=100 * stretch,
             operations=tuple(described(turn, found[turn], lattice) for turn in list(found)[1:]),
-            misses=self._misses(lattice),
+            misses=self._misses(lattice) if misses else (),
             continuous=None if self.along is None else self.along.way,
             note="" if self.along is None else "stripes: any shift along them is a symmetry",
         )
