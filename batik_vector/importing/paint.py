@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import xml.etree.ElementTree as ET
 import zlib
+from collections.abc import Callable
 
 from batik_vector.geometry.paths.matrix import Matrix
 from batik_vector.importing.colours import colour_of
@@ -50,7 +51,12 @@ def paint_of(document: Document, element: ET.Element, style: Style, what: str) -
 
 
 def look_of(
-    document: Document, style: Style, what: str, ink: str, opacity: float, space: tuple[Matrix, Box]
+    document: Document,
+    style: Style,
+    what: str,
+    ink: str,
+    opacity: float,
+    space: tuple[Matrix, Callable[[], Box]],
 ) -> Paint | None:
     """Return what a fill or a stroke looks like on a screen; None where that cannot be told.
 
@@ -60,14 +66,14 @@ def look_of(
         what: "fill" or "stroke".
         ink: the colour that stands for it, as :func:`paint_of` finds it.
         opacity: of the groups that it lies in, and its own.
-        space: from the shape's user units to the page, and the shape's box in them.
+        space: from the shape's user units to the page, and what tells the shape's box in them.
     """
     text = style[what]
     opacity *= share_of(style[f"{what}-opacity"])
     server = url_of(text)
     target = document.by_id.get(server[0][1:]) if server and server[0].startswith("#") else None
     if target is not None:
-        ramp = gradient_of(document, target, *space, style["color"])
+        ramp = gradient_of(document, target, space[0], space[1](), style["color"])
         return None if ramp is None else Paint(ink, ink, opacity, ramp)
     found = colour_of(server[1] if server else text, style["color"])
     return Paint(ink, ink, opacity * (found[1] if found else 1.0))
@@ -75,7 +81,7 @@ def look_of(
 
 def url_of(text: str) -> tuple[str, str] | None:
     """Return what url() refers to and what stands behind it, or None where the text is no url()."""
-    match = _URL.fullmatch(text)
+    match = _URL.fullmatch(text) if "(" in text else None
     return None if match is None else (match[1].strip(), match[2].strip())
 
 

@@ -50,6 +50,10 @@ class Pen:
     begin: float = 0.0
 
 
+NO_PEN = Pen("flat", "mitre", 4.0)
+"""What stands where there is no stroke."""
+
+
 def pen_of(style: Style, size: tuple[float, float], scale: float) -> Pen:
     """Return the pen of a style.
 

@@ -236,6 +236,7 @@ def declared(text: str) -> dict[str, tuple[str, bool]]:
     return found
 
 
+@functools.lru_cache(4096)
 def share_of(text: str) -> float:
     """Return an opacity: ``"0.5"`` or ``"50%"``; what is none is 1."""
     try:

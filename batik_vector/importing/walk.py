@@ -30,7 +30,7 @@ from batik_vector.importing.page import Box, Page, fitted, parse_px, view_box
 from batik_vector.importing.paint import EXPAND, FIRST_COLOUR, SOLID, look_of, paint_of
 from batik_vector.importing.painting import Paint
 from batik_vector.importing.patterns import pattern_of, server_of
-from batik_vector.importing.pens import dots, lean_of, pen_of, stroke_first
+from batik_vector.importing.pens import NO_PEN, dots, lean_of, pen_of, stroke_first
 from batik_vector.importing.scene import Here, Shape, Tiling
 from batik_vector.importing.shapes import SHAPES, outline_of
 from batik_vector.importing.styles import GEOMETRY, INITIAL, MOVES, Style, Styles, share_of
@@ -124,7 +124,8 @@ class Walker:
             raise self.document.fault(f"nested deeper than {MAX_DEPTH} elements", element)
         self._refused_effects(element, style)
         if self._measured is None:
-            inside = replace(inside, clips=inside.clips + self._clips(element, style, inside))
+            clips = self._clips(element, style, inside)
+            inside = replace(inside, clips=inside.clips + clips) if clips else inside
         self._enter(element, inside, top)
 
     def _enter(self, element: ET.Element, inside: Here, top: bool) -> None:
@@ -253,10 +254,20 @@ class Walker:
         breadth = self._breadth(style, width, here)
         names = here.label, element.get("id", "")
         looks = self._look("fill", fill, drawn, here), self._look("stroke", stroke, drawn, here)
-        pen = pen_of(style, here.size, breadth / width if width else 1.0)
-        shape = Shape(outline, *names, fill, style["fill-rule"], stroke, breadth, looks, pen, here.clips)
-        shape = replace(
-            shape, trail=here.trail, stroke_first=stroke_first(style), lean=self._lean(style, here)
+        pen = pen_of(style, here.size, breadth / width) if stroke else NO_PEN
+        shape = Shape(
+            outline,
+            *names,
+            fill,
+            style["fill-rule"],
+            stroke,
+            breadth,
+            looks,
+            pen,
+            here.clips,
+            trail=here.trail,
+            stroke_first=stroke_first(style),
+            lean=self._lean(style, here),
         )
         if server is not None:
             self._tile(element, shape, here, (server, box_of([drawn])))
@@ -320,8 +331,11 @@ class Walker:
         """Return how a fill or a stroke shows, and take note of what cannot be told."""
         if not ink:
             return Paint(ink, "#000000")
-        low, high = drawn.points.min(axis=0), drawn.points.max(axis=0)
-        reach = (float(low[0]), float(low[1]), float(high[0] - low[0]), float(high[1] - low[1]))
+
+        def reach() -> Box:
+            low, high = drawn.points.min(axis=0), drawn.points.max(axis=0)
+            return float(low[0]), float(low[1]), float(high[0] - low[0]), float(high[1] - low[1])
+
         look = look_of(self.document, here.style, what, ink, here.opacity, (here.matrix, reach))
         if look is None:
             self.document.leave_open("whether the colours of a mesh gradient agree at the seam")
