@@ -1,7 +1,8 @@
 """Slivers along the seam: slits of bare ground and strips of ink that no hand would draw.
 
 A drawing may have needles and narrow gaps of its own. Those that a seam makes run along it: both of their
-long sides are straight and parallel to it, and there are none like them elsewhere in the drawing. They
+long sides are straight and parallel to it, and there are none like them elsewhere in the drawing; of two
+lines side by side one lies on either side of the seam, or on it. They
 are looked for in the welded field, where a mark that reaches over the seam by a hair is no strip.
 """
 
@@ -83,7 +84,9 @@ def slivers(ink: InkDrawing, field: Elsewhere, limits: Limits) -> list[Sliver]:
         away = [_from_seam(each, axis, side, frame) for each in everything]
         own = [each for each, apart in zip(everything, away, strict=True) if apart > near]
         for each, apart in zip(everything, away, strict=True):
-            if apart <= near and not any(_alike(each, other, frame) for other in own):
+            # Lines that the seam does not part are no work of its: curves touch, and cross mirrors upright.
+            reach = each.width / 2 + limits.hair * frame.per_mm if each.sort == "lines" else near
+            if apart <= reach and not any(_alike(each, other, frame) for other in own):
                 found.append(each)
     # The joined areas and the single ones show a sliver at several places that are one on the page.
     places = [(each.sort, each.width, each.high - each.low, *each.centre(frame)) for each in found]

@@ -18,6 +18,7 @@ from batik_vector.recipe.motif import Motif, Treatment
 from batik_vector.recipe.placement import Placement
 from batik_vector.tiling.layouts import Clear, Stripes, Toss
 from batik_vector.tiling.symmetry.orbits import Orbit
+from batik_vector.tiling.torus import overlay
 from batik_vector.tiling.torus.torus import Lattice
 from batik_vector.tiling.welding.congruent import polygons
 from batik_vector.tiling.welding.sheets import Sheet
@@ -160,7 +161,8 @@ def _body(
 
 def _shapes(figure: Figure, scale: float, half: float) -> list[Geometries]:
     grown = Affine.scale(scale)
-    areas = grown.apply(figure.areas)
+    # Rings that touch may cross by a hair once they are scaled.
+    areas = overlay.valid(grown.apply(figure.areas))
     if not half:
         return [areas]
     return [

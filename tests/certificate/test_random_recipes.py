@@ -22,6 +22,12 @@ CRUMBS = (246, 1028, 1758)
 MORE = (431, 639, 1133, 1238, 1702, 768, 1025, 1206, 1405, 1654)
 """More of both kinds, line ends at sharp angles, and pages covered all over."""
 
+BESIDE = (166, 204, 1705, 1807)
+"""Lines that run beside a mirror or the seam as near as a step, or cross a mirror at a right angle."""
+
+HOLES = (445, 1374, 125)
+"""Holes that touch the outlines they lie in, and areas that begin in one point."""
+
 SPREAD = range(7, 2000, 47)
 
 
@@ -43,6 +49,6 @@ def test_strips_and_crumbs_are_no_longer_left(number: int) -> None:
 
 
 @long
-@pytest.mark.parametrize("number", [*MORE, *SPREAD][: examples(1, 60)])
+@pytest.mark.parametrize("number", [*MORE, *BESIDE, *HOLES, *SPREAD][: examples(1, 60)])
 def test_everyday_recipes_pass(number: int) -> None:
     passes(number)

@@ -39,6 +39,12 @@ def test_two_lines_side_by_side_along_the_seam() -> None:
     assert "two lines side by side" in fault.words
 
 
+def test_two_lines_that_the_seam_does_not_part_are_the_drawings_own() -> None:
+    """A curve that crosses an upright mirror at a right angle, near the lower edge, and its image."""
+    across = [[(0, 0.2), (15, 0.2), (16, 5)], [(0, 0.2), (15, 0.21), (17, 6)]]
+    assert certify(tile(lines=[*LINES, *across, [(-9, 0.2), (0, 0.2)]])).faults == ()
+
+
 def test_a_strip_like_those_elsewhere_is_the_drawings_own() -> None:
     strips = [[(x, 40), (x + 0.01, 40), (x + 0.01, 55), (x, 55)] for x in (0.1, 20.1, 40.1)]
     assert certify(added(tile(), WAX, areas=strips)).faults == ()

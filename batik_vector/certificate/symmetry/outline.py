@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from batik_vector.artwork import Cell, Geometries, Layer
 from batik_vector.geometry.regions import oriented
-from batik_vector.tiling.torus import seams
+from batik_vector.tiling.torus import overlay, seams
 from batik_vector.tiling.torus.torus import (
     Steps,
     Window,
@@ -128,7 +128,7 @@ def _on_seam(areas: Geometries, cell: Cell) -> Geometries:
     near = (low_x <= SNAP_STEPS) | (low_y <= SNAP_STEPS)
     near |= (high_x >= cell.columns - SNAP_STEPS) | (high_y >= cell.rows - SNAP_STEPS)
     moved = np.asarray(shapely.transform(areas[near], snap), dtype=object)
-    moved = np.asarray(shapely.make_valid(moved), dtype=object)
+    moved = overlay.valid(moved)
     pieces, _ = polygons_of(moved, np.zeros(len(moved), np.intp))
     return np.concatenate([areas[~near], pieces])
 

@@ -18,6 +18,7 @@ from batik_vector.geometry.coincidence import distinct
 from batik_vector.geometry.maps.affine import IDENTITY, Affine
 from batik_vector.geometry.maps.affines import Affines
 from batik_vector.geometry.sampling import Array, Indices
+from batik_vector.tiling.torus import overlay
 from batik_vector.tiling.torus.torus import Window, lines_of, polygons_of, to_mm, wrap
 from batik_vector.tiling.welding.stack import MAX_REPEATS, MAX_VERTICES
 from batik_vector.units import STEPS_PER_MM
@@ -221,7 +222,7 @@ def _within(marks: Geometries, names: Indices, shape: shapely.Polygon, crumb: fl
     whole = shapely.contains_properly(shape, marks)
     areal = shapely.get_dimensions(marks) == 2
     pieces, of = polygons_of(
-        shapely.intersection(shapely.make_valid(marks[areal & ~whole]), shape), names[areal & ~whole]
+        shapely.intersection(overlay.valid(marks[areal & ~whole]), shape), names[areal & ~whole]
     )
     run = shapely.intersection(marks[~areal & ~whole], shape)
     lines, _ = lines_of(run, np.zeros(len(run), np.intp))
@@ -249,7 +250,7 @@ def _on_grid(marks: Geometries) -> Geometries:
     rounded = np.asarray(shapely.transform(marks, _rounded), dtype=object)
     sound = shapely.is_valid(rounded)
     if not sound.all():
-        torn = shapely.set_precision(shapely.make_valid(marks[~sound]), 1.0)
+        torn = overlay.mended(marks[~sound])
         mended, _ = polygons_of(torn, np.zeros(len(torn), np.intp))
         rounded = np.concatenate([rounded[sound], mended])
     return np.asarray(shapely.remove_repeated_points(rounded[shapely.length(rounded) > 0]), dtype=object)

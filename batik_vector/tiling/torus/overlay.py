@@ -85,24 +85,40 @@ def on_grid(areas: Geometries) -> Geometries:
 
 
 def mended(marks: Geometries) -> Geometries:
-    """Return invalid marks as valid ones on the grid.
+    """Return invalid marks as valid ones on the grid."""
+    return _best(marks, lambda mark: shapely.set_precision(mark, 1.0))
+
+
+def valid(marks: Geometries) -> Geometries:
+    """Return marks, of which those that are invalid are made valid, between the points of the grid."""
+    torn = ~shapely.is_valid(marks)
+    if torn.any():
+        marks = marks.copy()
+        marks[torn] = _best(marks[torn], lambda mark: mark)
+    return marks
+
+
+def _best(marks: Geometries, finish: Callable[[shapely.Geometry], shapely.Geometry]) -> Geometries:
+    """Return invalid marks made valid, and finished, in the way that keeps the area of each best.
 
     Neither way in which GEOS mends is right for all: the one fills a hole that a hair crosses, the other may
-    lose a ring that touches itself, or give up. What keeps the area best is taken.
+    lose a ring that touches itself, or give up.
     """
     found = np.empty(len(marks), dtype=object)
     for number, (mark, area) in enumerate(zip(marks, shapely.area(marks), strict=True)):
-        ways = [each for make in (_by_lines, _by_structure) for each in _mended(mark, make)]
+        ways = [each for make in (_by_lines, _by_structure) for each in _made(mark, make, finish)]
         found[number] = min(ways, key=lambda way: abs(shapely.area(way) - area), default=shapely.Polygon())
     return found
 
 
-def _mended(
-    mark: shapely.Geometry, make: Callable[[shapely.Geometry], shapely.Geometry]
+def _made(
+    mark: shapely.Geometry,
+    make: Callable[[shapely.Geometry], shapely.Geometry],
+    finish: Callable[[shapely.Geometry], shapely.Geometry],
 ) -> list[shapely.Geometry]:
     """Return a mark mended in one way; nothing where that way fails."""
     try:
-        return [shapely.set_precision(make(mark), 1.0)]
+        return [finish(make(mark))]
     except shapely.errors.GEOSException:
         return []
 

@@ -205,7 +205,7 @@ def clip_areas(
     # whole window.
     folded = ~shapely.is_valid(split)
     if folded.any():
-        flat, flat_names = polygons_of(shapely.make_valid(split[folded]), split_names[folded])
+        flat, flat_names = polygons_of(overlay.valid(split[folded]), split_names[folded])
         split = np.concatenate([split[~folded], flat])
         split_names = np.concatenate([split_names[~folded], flat_names])
     pieces, piece_names = polygons_of(overlay.within(split, window.box), split_names)

@@ -25,6 +25,28 @@ def own_ends(lines: Geometries, cell: Cell) -> Places:
     return {(x, y) for x, y in _on_rim(np.vstack(ends), cell).tolist()}
 
 
+def tips(lines: Geometries, cell: Cell) -> Places:
+    """Return the places on the rim of the page at which lines run back the way they came.
+
+    There is the point of a shape that is thinner than a step: drawn once, its line ends there.
+    """
+    coords = shapely.get_coordinates(lines)
+    sizes = shapely.get_num_coordinates(lines)
+    last = np.cumsum(sizes) - 1
+    first = last - sizes + 1
+    following = np.arange(1, len(coords) + 1)
+    # A closed line goes on from its end as it began; there and back alone begins where it was cut.
+    following[last] = first + 1
+    inner = np.ones(len(coords), bool)
+    inner[first] = False
+    inner[last[~shapely.is_closed(lines) | (sizes <= 3)]] = False
+    at = np.flatnonzero(inner)
+    come, gone = coords[at] - coords[at - 1], coords[following[at]] - coords[at]
+    level = come[:, 0] * gone[:, 1] == come[:, 1] * gone[:, 0]
+    back = at[level & ((come * gone).sum(axis=1) < 0)]
+    return {(x, y) for x, y in _on_rim(coords[back], cell).tolist()}
+
+
 def lone_ends(lines: Geometries, cell: Cell) -> Places:
     """Return the places on the rim from which a single stretch of all lines runs: none goes on there."""
     coords, owner = shapely.get_coordinates(lines, return_index=True)
@@ -32,6 +54,18 @@ def lone_ends(lines: Geometries, cell: Cell) -> Places:
     ends = _on_rim(np.vstack([coords[:-1][inside], coords[1:][inside]]), cell)
     places, counts = np.unique(ends, axis=0, return_counts=True)
     return {(x, y) for x, y in places[counts == 1].tolist()}
+
+
+def on_edges(lines: Geometries) -> list[tuple[int, int, int]]:
+    """Return the stretches of lines on the left and the lower edge of the page, as (axis, from, to)."""
+    coords, owner = shapely.get_coordinates(lines, return_index=True)
+    found = []
+    for axis in (0, 1):
+        on = coords[:, axis] == 0
+        mine = on[1:] & on[:-1] & (owner[1:] == owner[:-1])
+        ends = np.sort(np.column_stack([coords[:-1, 1 - axis], coords[1:, 1 - axis]])[mine], axis=1)
+        found += [(axis, int(low), int(high)) for low, high in ends.tolist()]
+    return found
 
 
 def _on_rim(points: NDArray[np.float64], cell: Cell) -> Steps:

@@ -163,7 +163,7 @@ def _assemble_on(torus: Torus, pile: Pile, left: Cut, inks: Sequence[Ink]) -> tu
     layers = []
     for number, ink in enumerate(inks):
         mine = drawn.taken(ink_of[drawn.sheet] == number)
-        sealed = torus.sealed(ink.name, mine.copies)
+        sealed = torus.sealed(ink.name, mine.copies, apart=ink.overlap != Overlap.OVERLAY)
         if sealed is None:
             return None
         own = [each for name, each in strokes if name == ink.name]
@@ -259,7 +259,7 @@ def _strokes(torus: Torus, pile: Pile, number: int, lines: Geometries) -> Lines:
     """Return what is left of a sheet's lines (mm): each ends where its body meets a gap, not its centre."""
     ink = pile.sheets[number].ink
     assert ink is not None
-    strokes = torus.lines(lines, number, ink.name)
+    strokes = torus.lines(lines, number, ink.name, pile.tolerance * STEPS_PER_MM / 2)
     if not len(strokes[0]):
         return strokes
     above = pile.cutters(above=number, extra=ink.width / 2)

@@ -60,12 +60,13 @@ def weld(stock: Stock, copies: Copies, group: Index | None = None) -> tuple[Copi
         copies, first, single = _united(stock, copies, pairs)
         origin, group = origin[first], group[first]
         pairs = _meeting(stock, copies, group, single)
-        pairs = pairs[stock.holds(_overlap, copies.taken(pairs[:, 0]), copies.taken(pairs[:, 1]))]
+        pairs = pairs[stock.holds(overlap, copies.taken(pairs[:, 0]), copies.taken(pairs[:, 1]))]
     order = np.argsort(origin, kind="stable")
     return copies.taken(order), origin[order]
 
 
-def _overlap(a: Geometries, b: Geometries) -> NDArray[np.bool_]:
+def overlap(a: Geometries, b: Geometries) -> NDArray[np.bool_]:
+    """Return which areas of two arrays share more than their borders."""
     return np.asarray(shapely.relate_pattern(a, b, "T********"))
 
 

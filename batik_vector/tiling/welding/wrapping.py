@@ -11,7 +11,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from batik_vector.artwork import Cell, Geometries
+from batik_vector.artwork import Cell, DropAxis, Geometries
 from batik_vector.geometry.outlines import Index, runs
 from batik_vector.tiling.torus import overlay, seams
 from batik_vector.tiling.torus.torus import (
@@ -27,11 +27,18 @@ from batik_vector.tiling.torus.torus import (
     wrap,
 )
 from batik_vector.tiling.welding.congruent import Copies, Stock, alike, together
-from batik_vector.tiling.welding.endings import Places, lone_ends, own_ends
+from batik_vector.tiling.welding.endings import Places, lone_ends, on_edges, own_ends, tips
+from batik_vector.tiling.welding.weld import meeting, overlap
 
 Borders = frozenset[tuple[str, int, int, int]]
 Lines = tuple[Geometries, NDArray[np.intp]]
 """Polylines, and the number of the sheet that each lies in."""
+
+CLOSE = 10.0
+"""Steps from an edge beyond which lines run beside it and not on it, however coarse the tolerance."""
+
+SLENDER = 10
+"""How many times the reach a stretch is long that runs along an edge."""
 
 
 class Torus:
@@ -76,14 +83,47 @@ class Torus:
         each = np.repeat(np.arange(len(marks)), np.diff(starts))
         return self.stock.taken_up(pieces[order]).taken(which), each
 
-    def lines(self, marks: Geometries, sheet: int, ink: str) -> Lines:
-        """Wrap polylines in mm and cut them at the edges."""
+    def lines(self, marks: Geometries, sheet: int, ink: str, reach: float) -> Lines:
+        """Wrap polylines in mm and cut them at the edges.
+
+        Stretches that run along an edge no farther from it than ``reach`` (steps) are moved onto it.
+        """
         pieces = to_step_grid(marks)
         pieces = pieces[shapely.length(pieces) > 0] if len(pieces) else pieces
         pieces = translate(pieces, np.repeat(self.phase[None, :], len(pieces), axis=0))
         pieces, names = wrap(pieces, np.full(len(pieces), sheet, np.intp), self.lattice, self.window)
-        self._ends.setdefault(ink, set()).update(own_ends(pieces, self.cell))
-        return clip_lines(pieces, names, self.window)
+        pieces = self._on_edges(pieces, min(reach, CLOSE))
+        ends = self._ends.setdefault(ink, set())
+        ends.update(own_ends(pieces, self.cell))
+        pieces, names = clip_lines(pieces, names, self.window)
+        ends.update(tips(pieces, self.cell))
+        return pieces, names
+
+    def _on_edges(self, lines: Geometries, reach: float) -> Geometries:
+        """Return polylines whose stretches along the edges lie on these: beside a mirror a twin runs as near.
+
+        Along an edge that the drop breaks nothing is moved: beyond its end it is no seam.
+        """
+        coords, owner = shapely.get_coordinates(lines, return_index=True)
+        same = owner[1:] == owner[:-1]
+        moved = np.zeros(len(coords), bool)
+        sides = ((0, self.cell.columns), (1, self.cell.rows))
+        broken = {DropAxis.COLUMN: 1, DropAxis.ROW: 0}[self.cell.axis] if self.cell.drop else None
+        for axis, far in sides:
+            long = same & (np.abs(np.diff(coords[:, 1 - axis])) > SLENDER * reach)
+            for value in (0, far) if axis != broken else ():
+                near = np.abs(coords[:, axis] - value) <= reach
+                along = np.flatnonzero(long & near[1:] & near[:-1])
+                at = np.concatenate([along, along + 1])
+                moved[at] |= coords[at, axis] != value
+                coords[at, axis] = value
+        if not moved.any():
+            return lines
+        lines, which = lines.copy(), np.unique(owner[moved])
+        mine = np.isin(owner, which)
+        lines[which] = shapely.set_coordinates(lines[which], coords[mine])
+        lines[which] = shapely.remove_repeated_points(lines[which])
+        return lines
 
     def cut_lines(self, lines: Lines, cutters: Geometries, ink: str, crumb: float) -> Lines:
         """Cut lines by cutters that do not overlap; one that is cut off up to the seam ends there.
@@ -119,13 +159,19 @@ class Torus:
 
     def record_ends(self, ink: str, lines: Geometries) -> None:
         """Note where lines end on the seam on purpose, as borders of no length."""
-        meant = self._ends.get(ink, set()) & lone_ends(lines, self.cell)
+        lone = lone_ends(lines, self.cell)
+        meant = self._ends.get(ink, set()) & lone
+        if lone > meant:
+            # What runs into a line that lies on the seam goes on in that.
+            along = on_edges(lines)
+            meant |= {place for place in lone if _lies_in(place, along)}
         self.borders += [(ink, 0, y, y) if x == 0 else (ink, 1, x, x) for x, y in sorted(meant)]
 
-    def sealed(self, ink: str, areas: Copies) -> Copies | None:
+    def sealed(self, ink: str, areas: Copies, *, apart: bool) -> Copies | None:
         """Return areas whose opposite edges agree, but for borders drawn along the seam on purpose.
 
-        What rounding parted by a few steps is mended; None where more is torn.
+        What rounding parted by a few steps is mended; None where more is torn, or where that pushes areas
+        over one another that are to lie ``apart``.
         """
         x0, y0, x1, y1 = self.stock.bounds(areas).T
         window = self.window
@@ -134,7 +180,7 @@ class Torus:
         breaks = seams.mismatch(rim, self.cell)
         if len(breaks):
             mended = seams.mended(rim, self.cell)
-            if not shapely.is_valid(mended).all():
+            if not shapely.is_valid(mended).all() or (apart and _overlap(mended)):
                 return None
             breaks = seams.mismatch(mended, self.cell)
             if self._torn(breaks):
@@ -162,6 +208,12 @@ class Torus:
     def _allowed(self) -> NDArray[np.int64]:
         """The edges of marks that run along the seam themselves, as (axis, from, to)."""
         return seams.on_seam(np.concatenate([np.empty(0, dtype=object), *self._crossing]), self.window)
+
+
+def _overlap(areas: Geometries) -> bool:
+    """Whether any two areas share more than their borders."""
+    one, other = meeting(areas).T
+    return bool(overlap(areas[one], areas[other]).any())
 
 
 def _lies_in(place: tuple[int, int], stretches: Sequence[tuple[int, int, int]]) -> bool:

@@ -190,8 +190,8 @@ def test_a_seam_that_had_to_be_moved_moves_no_edge_of_the_band(
 ) -> None:
     true = Torus.sealed
 
-    def sealed(torus: Torus, ink: str, areas: Copies) -> Copies | None:
-        return true(torus, ink, areas) if torus.phase.any() else None
+    def sealed(torus: Torus, ink: str, areas: Copies, *, apart: bool) -> Copies | None:
+        return true(torus, ink, areas, apart=apart) if torus.phase.any() else None
 
     monkeypatch.setattr(Torus, "sealed", sealed)
     bar = Sheet("bar", INK, np.array([shapely.box(8, 3, 30, 7)], dtype=object))

@@ -116,3 +116,18 @@ def test_lines_are_cut_where_the_region_ends() -> None:
     # Half of it lies in the region; the other half, a period on, lies in the next one.
     assert shapely.length(pieces).sum() == pytest.approx(2 * line[0].length * 15 / 30, abs=0.01)
     assert set(shapely.get_coordinates(pieces)[:, 0][[0, -1]]) <= {0.0, 15.0, -15.0, 20.0, -20.0}
+
+
+@pytest.mark.parametrize("at", [(10.0, 9.0), (10.0, 0.5)], ids=["inside", "over an edge"])
+def test_a_hole_that_touches_its_outline_is_filled_in_no_image(at: tuple[float, float]) -> None:
+    """A turn moves the point in which both begin by the last bits of its floats, and each over the other."""
+    orbit = orbit_of(GROUPS["pg"], Frame(Cell(40_000, 30_000), frozenset(Kind)), spread=Spread.CUT)
+    t = np.linspace(0, 1, 60)[:-1]
+    leaf = np.sin(np.pi * t) * np.exp(3j * (t - 0.5))
+    for turn in np.linspace(0.1, 6, 23):
+        outline, hole = ((scale * np.exp(1j * turn) * leaf) for scale in (4, 2.4))
+        rings = [np.column_stack([ring.real, ring.imag]) + at for ring in (outline, hole)]
+        whole = shapely.Polygon(rings[0]).area
+        images = orbit.mirrored(np.array([shapely.Polygon(rings[0], rings[1:])], dtype=object))
+        assert shapely.is_valid(images).all()
+        assert shapely.area(images).sum() == pytest.approx(2 * 0.64 * whole, rel=0.01)

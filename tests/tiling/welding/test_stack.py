@@ -14,8 +14,10 @@ from batik_vector.recipe.motif import Element, Motif, Rosette, Treatment
 from batik_vector.tiling.layouts import Ring
 from batik_vector.tiling.symmetry.repeats import Cut, TileSpec
 from batik_vector.tiling.welding import sheets
+from batik_vector.tiling.welding.congruent import Stock
 from batik_vector.tiling.welding.sheets import Sheet
 from batik_vector.tiling.welding.stack import assemble
+from batik_vector.tiling.welding.wrapping import Torus
 from tests.budgets import counted
 
 INK = Ink("wax", "#f4efe2", 2.0)
@@ -72,6 +74,50 @@ def test_lines_of_several_inks_that_end_on_the_seam_are_all_told() -> None:
     for order in (lines, lines[::-1]):
         _, borders = assemble([*order, *gaps], inks, cell, cell.lattice, 0.02)
         assert sorted(borders) == [("a", 0, 30_000, 30_000), ("b", 0, 60_000, 60_000)]
+
+
+def test_the_tip_of_a_needle_that_is_flat_on_the_seam_is_told() -> None:
+    """Of its two sides one is drawn, and ends on the seam where they meet."""
+    needle = shapely.LineString([(-20, 0), (80, 0.001), (90, 0), (80, -0.001), (-20, 0)])
+    cell = Cell(100_000, 80_000)
+    _, borders = assemble([Sheet("n", INK, lines=array(needle))], [INK], cell, cell.lattice, 0.02)
+    assert (INK.name, 1, 90_000, 90_000) not in borders
+    flat = shapely.LineString([(20, 9), (60, 0), (90, 0), (60, 0), (20, 9)])
+    _, borders = assemble([Sheet("n", INK, lines=array(flat))], [INK], cell, cell.lattice, 0.02)
+    assert (INK.name, 1, 90_000, 90_000) in borders
+
+
+def test_a_line_that_leaves_another_on_the_seam_ends_there_on_purpose() -> None:
+    lines = [
+        shapely.LineString([(10, 5), (0, 20), (0, 60), (10, 75)]),
+        shapely.LineString([(10, 15), (0, 30), (0, 50), (10, 65)]),
+    ]
+    cell = Cell(100_000, 80_000)
+    _, borders = assemble([Sheet("n", INK, lines=array(*lines))], [INK], cell, cell.lattice, 0.02)
+    assert {(INK.name, 0, y, y) for y in (30_000, 50_000)} <= borders
+
+
+def test_mending_a_seam_pushes_no_area_over_its_neighbour() -> None:
+    """A gap of a step that one side of the seam alone has is closed, and a point there moves over an edge."""
+    left = shapely.Polygon([(29_014, 0), (36_287, 0), (36_373, 63), (32_000, 2_700)])
+    right = shapely.Polygon([(36_288, 0), (43_247, 0), (43_247, 3_000), (36_946, 484)])
+    beyond = shapely.box(29_014, 79_000, 43_247, 80_000)
+    cell = Cell(100_000, 80_000)
+    for apart in (True, False):
+        torus = Torus(Stock(), cell, cell.lattice, np.zeros(2, np.int64))
+        sealed = torus.sealed("wax", torus.stock.taken_up(array(left, right, beyond)), apart=apart)
+        assert (sealed is None) == apart
+
+
+@pytest.mark.parametrize("away", [0.004, 0.009, 0.011])
+def test_a_line_runs_along_the_seam_on_it_or_well_beside_it(away: float) -> None:
+    """A mark beside a mirror, and its image: two lines as near as that would be one drawn twice."""
+    right = shapely.LineString([(90, 20), (100 - away, 30), (100 - away, 40), (90, 50)])
+    left = shapely.LineString([(10, 20), (away, 30), (away, 40), (10, 50)])
+    (layer,) = laid(Sheet("s", INK, lines=array(right, left)))
+    drawn = shapely.length(layer.lines).sum()
+    once = 10 if away < 0.01 else 20
+    assert drawn == pytest.approx(4 * np.hypot(10, 10) + once, abs=0.05)
 
 
 @pytest.mark.parametrize("away", np.linspace(0.6, 1.1, 11))
