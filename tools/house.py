@@ -39,7 +39,7 @@ FLOORS: Floors = _floors(
     "tiling export",
     "importing",
     "recipe certificate",
-    "compiling",
+    "compiling drafting",
     "command",
     "__init__ __main__",
 )

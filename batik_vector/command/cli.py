@@ -16,8 +16,10 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from batik_vector._version import __version__
+from batik_vector.command.drawings import export_motif_command, import_command
 from batik_vector.command.stopping import EXITS, end_on_sigterm, listen
-from batik_vector.errors import BatikError, RecipeError, unknown_name
+from batik_vector.command.telling import collecting, complain, faults_told, reported, stages
+from batik_vector.errors import BatikError, unknown_name
 
 if TYPE_CHECKING:
     from batik_vector.command.jobs import Job
@@ -44,14 +46,9 @@ DEFAULT_KIND = "flower"
 SIGPIPE_EXIT = 141
 
 
-def _complain(words: str) -> None:
-    for line in words.splitlines():
-        click.echo(f"batik-vector: error: {line}", err=True)
-
-
 def _interrupted(number: int) -> None:
     if number == signal.SIGINT:
-        _complain("interrupted")
+        complain("interrupted")
 
 
 class _Commands(click.Group):
@@ -63,7 +60,7 @@ class _Commands(click.Group):
             sys.stdout.flush()
             return result
         except BatikError as error:
-            _complain(str(error))
+            complain(str(error))
             ctx.exit(error.exit_code)
         except KeyboardInterrupt:
             _interrupted(signal.SIGINT)
@@ -73,13 +70,13 @@ class _Commands(click.Group):
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
             ctx.exit(SIGPIPE_EXIT)
         except RecursionError:
-            _complain("this is nested too deeply")
+            complain("this is nested too deeply")
             ctx.exit(2)
         except Exception as error:
             # GEOS tells by an error of its own that memory has run out.
             if not (isinstance(error, MemoryError) or str(error) == "std::bad_alloc"):
                 raise
-            _complain(
+            complain(
                 "this needs more memory than there is: lower the counts or levels, or allow more tolerance"
             )
             ctx.exit(2)
@@ -137,17 +134,17 @@ def compile_command(
 
     from batik_vector.command.jobs import planned, read_jobs, ready, run
 
-    _ready()
-    with _report(as_json) as report:
+    collecting()
+    with reported(as_json) as report:
         jobs, lacking = ready(planned(read_jobs(recipes, overrides), Path(folder), formats))
         for job, tell in _progress(jobs, as_json):
-            with _each(report):
+            with faults_told(report):
                 done = run(job, tell)
                 report["recipes"].append(done)
                 _tell_files(done)
         for error in lacking:
             # What can be made is made, and this is the last that people read.
-            with _each(report):
+            with faults_told(report):
                 raise error
 
 
@@ -216,15 +213,15 @@ def check_command(
     from batik_vector.command.checks import Wishes, check_source, pointer_files, write_pointers
     from batik_vector.command.reports import table
 
-    _ready()
-    with _report(as_json) as report:
+    collecting()
+    with reported(as_json) as report:
         given = {name: value for name, value in limits.items() if value is not None}
         wishes = Wishes(repeat or "", group or "", given, lenient)
         places = pointer_files(sources, Path(pointers)) if pointers is not None else {}
         found = []
-        with _stages(as_json) as tell:
+        with stages(as_json) as tell:
             for source in sources:
-                with _each(report):
+                with faults_told(report):
                     each = check_source(source, overrides, wishes, tell)
                     found.append(each)
                     report["recipes"].append(each.facts)
@@ -236,47 +233,10 @@ def check_command(
             click.echo(f'{path}  shows the faults in layer "check"', err=True)
 
 
-@contextmanager
-def _stages(quiet: bool) -> Iterator[Callable[[str], None]]:
-    """Show the stage of work that takes long."""
-    from tqdm import tqdm
-
-    with tqdm(bar_format="{desc} {elapsed}", delay=1, disable=quiet or None, leave=False) as bar:
-        yield lambda stage: bar.set_description_str(stage)
-
-
 def _tell_facts(facts: dict[str, Any]) -> None:
     from batik_vector.command.reports import told
 
     click.echo("\n".join(told(facts)), err=True)
-
-
-@contextmanager
-def _report(as_json: bool) -> Iterator[dict[str, Any]]:
-    """Collect the report of a call; print it if asked to, also where the call fails; exit as it says."""
-    report: dict[str, Any] = {"version": __version__, "exit": 0, "recipes": [], "faults": []}
-    with _each(report):
-        yield report
-    if as_json:
-        import json
-
-        click.echo(json.dumps(report, indent=2))
-    if report["exit"]:
-        click.get_current_context().exit(report["exit"])
-
-
-@contextmanager
-def _each(report: dict[str, Any]) -> Iterator[None]:
-    """Tell an error and go on, so that one recipe does not keep back the others."""
-    try:
-        yield
-    except BatikError as error:
-        _complain(str(error))
-        report["exit"] = max(report["exit"], error.exit_code)
-        if isinstance(error, RecipeError):
-            report["faults"] += [vars(fault) for fault in error.faults]
-        else:
-            report["faults"].append({"message": str(error), "key": "", "source": "", "line": None})
 
 
 def _progress(jobs: Sequence[Job], quiet: bool) -> Iterator[tuple[Job, Callable[[str], None]]]:
@@ -334,6 +294,10 @@ def new_command(name: str | None, kind: str | None, path: str | None, force: boo
     click.echo(f"{written} written. Next: batik-vector compile {written}", err=True)
 
 
+for _command in (import_command, export_motif_command):
+    cli.add_command(_command)
+
+
 @cli.command("schema")
 def schema_command() -> None:
     """Print the JSON Schema of recipes, for editors."""
@@ -357,13 +321,6 @@ def _brief() -> Iterator[None]:
     try:
         yield
     finally:
-        gc.freeze()
-        gc.enable()
-
-
-def _ready() -> None:
-    """Begin to collect garbage, where it is not, once all that a command needs is imported."""
-    if not gc.isenabled():
         gc.freeze()
         gc.enable()
 

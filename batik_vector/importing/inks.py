@@ -26,6 +26,8 @@ Indices = NDArray[np.intp]
 Key = tuple[str, str, float]
 """What makes an ink: a layer's name, a colour, and the breadth of its lines, 0 for areas."""
 
+WHITE = "#ffffff"
+"""The cloth where none is drawn."""
 MAX_INKS = 300
 """Inks past which a drawing is refused: cloth is dyed in some ten."""
 PAGE_SLACK_MM = 1e-3
@@ -115,12 +117,8 @@ def layers_of(
     Raises:
         DrawingError: where nothing is drawn on the page, or in more than ``MAX_INKS`` inks.
     """
-    marks, cloth = _without_cloth(document, marks, cell, bleed)
-    if not len(marks):
-        raise document.fault("nothing is drawn on its ground")
-    marks = _on_page(document, marks, cell, bleed)
-    if not len(marks):
-        raise document.fault("is no tile: all that it draws lies outside its page", document.root)
+    marks, cloth = on_cloth(document, marks, cell, bleed)
+    cloth = cloth or WHITE
     keys = _keys(marks, ours)
     inks = len({*keys[0], *keys[1]})
     if inks > MAX_INKS:
@@ -132,6 +130,21 @@ def layers_of(
     if not ours:
         _stroke_notes(document, [names[key] for key in keys[1]])
     return tuple(_layers(marks, keys, names, ours)), cloth
+
+
+def on_cloth(document: Document, marks: Marks, cell: Cell, bleed: float) -> tuple[Marks, str]:
+    """Return the marks that the page shows, and the colour of its cloth, nothing where none is drawn.
+
+    Raises:
+        DrawingError: where nothing is drawn on the page.
+    """
+    marks, cloth = _without_cloth(document, marks, cell, bleed)
+    if not len(marks):
+        raise document.fault("nothing is drawn on its ground")
+    marks = _on_page(document, marks, cell, bleed)
+    if not len(marks):
+        raise document.fault("is no tile: all that it draws lies outside its page", document.root)
+    return marks, cloth
 
 
 def _stroke_notes(document: Document, inks: Sequence[str]) -> None:
@@ -155,7 +168,7 @@ def _without_cloth(document: Document, marks: Marks, cell: Cell, bleed: float) -
         if begins and shapely.covers(grown, page):
             ground[0] = True
     if not ground.any():
-        return marks, "#ffffff"
+        return marks, ""
     colour = marks.shapes[int(marks.area_shape[np.argmax(ground)])].fill
     if not label.any():
         document.note(f"the first shape is as large as the page: taken as the cloth, {colour}")

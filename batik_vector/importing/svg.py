@@ -40,6 +40,8 @@ WHOLE_MM = 0.02
 """How far a page in px may be off whole millimetres that it was meant to have."""
 OTHER_PX_PER_INCH = 72
 """What older programs count; CSS counts 96."""
+UNTITLED = "Untitled"
+"""What a drawing is called that has no title."""
 NAMESPACE = b"urn:x-batik-vector:provenance"
 """Ours, as :mod:`batik_vector.export.provenance` writes it."""
 
@@ -63,6 +65,22 @@ class Reading:
     bodies: Bodies
     unmeasured: tuple[str, ...] = ()
     onto: Matrix | None = None
+
+
+@frozen(eq=False)
+class Drawn:
+    """All that a drawing paints, uncut, in mm on the page as a cell; ``ours`` as of :class:`Reading`."""
+
+    document: Document
+    page: Page
+    cell: Cell
+    marks: Marks
+    ours: bool
+
+    @property
+    def title(self) -> str:
+        """What the drawing is called."""
+        return _title(self.document)
 
 
 def read_tile(
@@ -96,12 +114,30 @@ def read_svg(
         tolerance: mm.
         bleed: mm; how far the page reaches beyond the tile on every side.
     """
+    found = read_marks(source, repeat, tolerance, bleed)
+    document, page, cell, marks = found.document, found.page, found.cell, found.marks
+    bodies = bodies_on_rim(marks, cell, tolerance)
+    layers, cloth = layers_of(document, marks, cell, bleed, found.ours)
+    page_notes(document, page, cell, bleed)
+    artwork = RawArtwork(_title(document), cell, layers, cloth, tolerance, bleed)
+    curved = any((shape.outline.kinds == CURVE).any() for shape in marks.shapes)
+    notes, unmeasured = tuple(document.notes), tuple(document.unmeasured)
+    onto = inverse_of(times(_flip(page, cell, bleed), page.matrix)) if page.whole else None
+    return Reading(artwork, (page.width, page.height), notes, found.ours, curved, bodies, unmeasured, onto)
+
+
+def read_marks(
+    source: str | os.PathLike[str] | bytes,
+    repeat: str = "grid",
+    tolerance: float = TOLERANCE_MM,
+    bleed: float = 0.0,
+) -> Drawn:
+    """Return all that an SVG draws, uncut; arguments and errors as those of :func:`read_svg`."""
     drop, axis = parse_repeat(repeat)
     if not tolerance > 0:
         raise GeometryError(f"tolerance = {tolerance:g}, expected more than 0 mm")
     data, name = load(source)
     document = parse(data, name)
-    ours = NAMESPACE in data
     page, shapes = drawn(document)
     cell = _cell(document, page, drop, axis, bleed)
     if not shapes:
@@ -110,14 +146,7 @@ def read_svg(
         marks = _marks(shapes, page, cell, tolerance, bleed)
     except TooLargeError as error:
         raise document.fault(str(error)) from error
-    bodies = bodies_on_rim(marks, cell, tolerance)
-    layers, cloth = layers_of(document, marks, cell, bleed, ours)
-    _page_notes(document, page, cell, bleed)
-    artwork = RawArtwork(_title(document), cell, layers, cloth, tolerance, bleed)
-    curved = any((shape.outline.kinds == CURVE).any() for shape in shapes)
-    notes, unmeasured = tuple(document.notes), tuple(document.unmeasured)
-    onto = inverse_of(times(_flip(page, cell, bleed), page.matrix)) if page.whole else None
-    return Reading(artwork, (page.width, page.height), notes, ours, curved, bodies, unmeasured, onto)
+    return Drawn(document, page, cell, marks, NAMESPACE in data)
 
 
 def _cell(document: Document, page: Page, drop: Fraction, axis: DropAxis, bleed: float) -> Cell:
@@ -149,7 +178,8 @@ def _marks(shapes: list[Shape], page: Page, cell: Cell, tolerance: float, bleed:
     return clipped(marks, flatten, tolerance)
 
 
-def _page_notes(document: Document, page: Page, cell: Cell, bleed: float) -> None:
+def page_notes(document: Document, page: Page, cell: Cell, bleed: float) -> None:
+    """Note what was guessed of the page's size, and what makes it doubtful."""
     if page.guessed:
         document.note(page.guessed)
     given = [side - 2 * bleed for side in (page.width, page.height)]
@@ -179,8 +209,8 @@ def _roundness(sides: Sequence[float]) -> int:
 def _title(document: Document) -> str:
     for child in children(document.root):
         if local(child) == "title":
-            return " ".join("".join(child.itertext()).split())[:200] or "Untitled"
-    return "Untitled"
+            return " ".join("".join(child.itertext()).split())[:200] or UNTITLED
+    return UNTITLED
 
 
 __all__ = ["DrawingError", "Reading", "read_svg", "read_tile"]

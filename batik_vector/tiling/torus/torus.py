@@ -187,7 +187,7 @@ def _spread(first: Steps, last: Steps) -> tuple[NDArray[np.intp], Steps]:
     return row, first[row] + np.arange(len(row)) - np.repeat(np.cumsum(counts) - counts, counts)
 
 
-def translate(marks: Geometries, shift: Steps) -> Geometries:
+def translate(marks: Geometries, shift: NDArray[Any]) -> Geometries:
     """Return each mark moved by its own shift, shape (n, 2): exact on whole grid steps."""
     if not shift.any():
         return marks
