@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from batik_vector import certify, compile_cloth, compile_recipe, load_recipe
+from batik_vector import Recipe, certify, compile_cloth, compile_recipe
 from batik_vector.artwork import Artwork, violations
 from batik_vector.certificate.symmetry.finder import found_group
 from batik_vector.compiling.compiler import inspect
@@ -16,11 +16,20 @@ from batik_vector.export.options import PngOptions
 from batik_vector.tiling.cloth.field import collected, repeated
 from batik_vector.tiling.cloth.yardage import Yardage
 from tests.tiling.test_seamless import assert_line_ends_meet, crossings, cuts, difference, rolled, twins
+from tools import golden
 
 FOLDER = Path(__file__).resolve().parent.parent / "samples"
-SAMPLES = sorted(path.stem for path in FOLDER.glob("*.toml"))
-TILES = [name for name in SAMPLES if load_recipe(FOLDER / f"{name}.toml").tile]
-CLOTHS = [name for name in SAMPLES if load_recipe(FOLDER / f"{name}.toml").yardage]
+PATHS = {path.stem: path for path in golden.samples()}
+SAMPLES = sorted(PATHS)
+
+
+@functools.cache
+def recipe_of(name: str) -> Recipe:
+    return golden.recipe_of(PATHS[name])
+
+
+TILES = [name for name in SAMPLES if recipe_of(name).tile]
+CLOTHS = [name for name in SAMPLES if recipe_of(name).yardage]
 
 COPIES = {
     "p1": 1,
@@ -53,12 +62,12 @@ PAPER = {
 
 @functools.cache
 def compiled(name: str) -> Artwork:
-    return compile_recipe(load_recipe(FOLDER / f"{name}.toml"))
+    return compile_recipe(recipe_of(name))
 
 
 @functools.cache
 def cloth(name: str) -> Yardage:
-    return compile_cloth(load_recipe(FOLDER / f"{name}.toml"))
+    return compile_cloth(recipe_of(name))
 
 
 def test_the_papers_figures_and_six_designs_more_are_there() -> None:
@@ -71,7 +80,7 @@ def test_the_tile_is_sound_and_its_opposite_edges_are_bit_identical(name: str) -
     artwork = compiled(name)
     assert violations(artwork) == []
     assert inspect(artwork)["seam"] == []
-    recipe = load_recipe(FOLDER / f"{name}.toml")
+    recipe = recipe_of(name)
     cell = artwork.cell
     (_, slip_y), (slip_x, _) = cell.lattice
     for layer in artwork.layers:
@@ -115,7 +124,7 @@ def test_the_cloth_is_sound(name: str) -> None:
 
 def test_there_is_a_border_of_every_frieze_that_closes_a_rectangle() -> None:
     for frieze in FRIEZES:
-        recipe = load_recipe(FOLDER / f"border-{frieze}.toml")
+        recipe = recipe_of(f"border-{frieze}")
         assert any(border.frieze == frieze and len(border.sides) == 4 for border in recipe.border)
 
 
@@ -135,4 +144,5 @@ def test_the_sample_has_its_picture_and_stands_in_the_gallery(name: str) -> None
 
 @pytest.mark.parametrize("name", SAMPLES)
 def test_the_recipe_opens_with_what_it_shows(name: str) -> None:
-    assert (FOLDER / f"{name}.toml").read_text(encoding="utf-8").startswith("# ")
+    begin = '"""' if PATHS[name].suffix == ".py" else "# "
+    assert PATHS[name].read_text(encoding="utf-8").startswith(begin)

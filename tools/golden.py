@@ -10,9 +10,11 @@ grey from version to version.
 
 from __future__ import annotations
 
+import ast
 import io
 import math
 import re
+import runpy
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -46,7 +48,7 @@ VISIBLE = 20
 
 @dataclass(frozen=True)
 class Sample:
-    """A recipe of the samples' folder."""
+    """A recipe of the samples' folder, in TOML or in Python."""
 
     path: Path
     recipe: Recipe
@@ -77,13 +79,18 @@ class Sample:
         recipe = self.recipe
         inks = ", ".join(f"{plate.ink.name} {plate.ink.colour}" for plate in self.page.plates)
         facts = f"{self._size()}; {inks} on {recipe.cloth.colour}"
-        name = self.path.stem
+        name, story = self.path.stem, self.path.read_text(encoding="utf-8")
+        told = ast.get_docstring(ast.parse(story)) if self.path.suffix == ".py" else None
         return "\n\n".join(
             [
                 f"### {recipe.title}",
                 f"![{recipe.title}]({name}.png)",
-                *(words for words in leading_comment(recipe.source) if words != recipe.title),
-                f"[{name}.toml]({name}.toml): {facts}.",
+                *(
+                    words
+                    for words in (paragraphs(told) if told else leading_comment(story))
+                    if words != recipe.title
+                ),
+                f"[{self.path.name}]({self.path.name}): {facts}.",
             ]
         )
 
@@ -96,6 +103,7 @@ class Sample:
 
 SECTIONS = {
     "": "Designs",
+    "own": "Drawings of one's own",
     "ground": "Grounds that flow behind motifs",
     "toss": "Tossed",
     "group": "The seventeen wallpaper groups",
@@ -114,12 +122,22 @@ def section(path: Path) -> str:
 def samples() -> list[Path]:
     """Return the recipes of the samples' folder, section by section."""
     order = list(SECTIONS)
-    return sorted(SAMPLES.glob("*.toml"), key=lambda path: (order.index(section(path)), path.stem))
+    found = [*SAMPLES.glob("*.toml"), *SAMPLES.glob("*.py")]
+    return sorted(found, key=lambda path: (order.index(section(path)), path.stem))
+
+
+def recipe_of(path: Path) -> Recipe:
+    """Return the recipe of a sample: a page of TOML, or what a page of Python calls ``recipe``."""
+    if path.suffix != ".py":
+        return load_recipe(path)
+    recipe = runpy.run_path(str(path))["recipe"]
+    assert isinstance(recipe, Recipe)
+    return recipe
 
 
 def sample(path: Path) -> Sample:
     """Compile one of them."""
-    recipe = load_recipe(path)
+    recipe = recipe_of(path)
     return Sample(path, recipe, compile_cloth(recipe) if recipe.yardage else compile_recipe(recipe))
 
 
@@ -137,7 +155,12 @@ def leading_comment(text: str) -> list[str]:
         if not line.startswith("#"):
             break
         lines.append(line.removeprefix("#").strip())
-    return [" ".join(part.split("\n")) for part in re.split(r"\n{2,}", "\n".join(lines).strip()) if part]
+    return paragraphs("\n".join(lines))
+
+
+def paragraphs(text: str) -> list[str]:
+    """Return the paragraphs of a text, each on one line."""
+    return [" ".join(part.split("\n")) for part in re.split(r"\n{2,}", text.strip()) if part]
 
 
 def gallery(found: list[Sample]) -> str:

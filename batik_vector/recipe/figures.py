@@ -68,7 +68,8 @@ def _named(element: Element, tolerance: float | Callable[[Points], Array]) -> Fi
     except TooLargeError as error:
         known = f'element "{shortened(element.name)}"' if element.name else "an element without a name"
         contours = f", contours = {element.contours}" if element.contours > 1 else ""
-        raise TooLargeError(f"{known} ({type(element.curve).__name__.lower()}{contours}): {error}") from None
+        kind = type(element.curve).__name__.lower().removesuffix("curve")
+        raise TooLargeError(f"{known} ({kind}{contours}): {error}") from None
 
 
 def _draw(element: Element, tolerance: float | Callable[[Points], Array]) -> Figure:

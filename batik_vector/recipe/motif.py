@@ -25,7 +25,7 @@ from batik_vector.geometry.curves import (
     Superellipse,
     YAxis,
 )
-from batik_vector.geometry.curves.base import Outlined
+from batik_vector.geometry.curves.base import FunctionCurve, Outlined
 from batik_vector.geometry.curves.path import PATH_DATA, Coordinate, path_middle
 from batik_vector.geometry.paths.geometries import outline_of
 from batik_vector.recipe.drawing import Svg
@@ -60,7 +60,7 @@ class Element(Dress):
     def __post_init__(self) -> None:
         check(self)
         # What is drawn by hand may be open by oversight; a spiral or a wave says so by its name.
-        drawn = isinstance(self.curve, Outlined)
+        drawn = isinstance(self.curve, FunctionCurve | Outlined)
         if drawn and self.treatment in (Treatment.AREA, Treatment.CUT) and not self.curve.closed:
             raise GeometryError(
                 'an open line has no area to fill: expected treatment = "line", "stroke" or "both", '

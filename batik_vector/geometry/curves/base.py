@@ -115,7 +115,7 @@ class Curve:
         return OutlineCurve(path_of(d, y == "up", centre))
 
 
-MEET = 1e-9
+MEET = 1e-6
 """A function that ends this near to where it began, as a share of its size, is closed."""
 
 

@@ -1,0 +1,66 @@
+"""Nautilus: a shell cut open, chamber after chamber, each the last one grown and turned.
+
+One function of t draws a chamber: a rounded box in logarithmic polar coordinates, where to grow is to move.
+Thirty-four of them, each turned by 17° and larger by a twentieth, are the shell, and a long one is where the
+animal lives. Shells of both senses drift among bubbles, on the deep green of a lagoon.
+
+To vary it: GROWTH (how much wider a turn is than the one before), STEP, and the power in ``rounded``.
+"""
+
+import numpy as np
+
+from batik_vector import ClothSpec, Element, InkSpec, Placement, Recipe, Rosette, TileSpec
+from batik_vector.geometry.curves import Circle, Curve
+
+GROWTH = np.log(3) / (2 * np.pi)
+STEP = np.radians(17)
+CHAMBERS = 34
+
+
+def rounded(t, power=0.55):
+    """A square with round corners, x and y in [-1, 1]; t runs over [0, 1]."""
+    turn = np.exp(2j * np.pi * t)
+    return [np.sign(part) * np.abs(part) ** power for part in (turn.real, turn.imag)]
+
+
+def chamber(t, angle, span):
+    """The chamber from one angle on, as complex numbers: its walls bulge back towards the shell's heart."""
+    along, across = rounded(t)
+    turn = angle + span * (0.5 + 0.44 * along) - 0.2 * (1 - across**2)
+    reach = -0.56 + 0.44 * across
+    return 46 * np.exp(GROWTH * turn + reach + 1j * turn)
+
+
+def drawn(angle, span, **look):
+    """A chamber with its look."""
+    return Element(curve=Curve.from_function(lambda t: chamber(t, angle, span)), **look)
+
+
+first = -STEP * CHAMBERS
+shell = [drawn(first + k * STEP, STEP, name="chamber", ink="cotton") for k in range(CHAMBERS)]
+shell.append(drawn(0.05, 1.8, name="home", ink="ochre"))
+shell += [drawn(angle, 0.07, name="growth", treatment="cut") for angle in (0.62, 0.98, 1.30, 1.56)]
+
+bubbles = [
+    Element(curve=Circle(size), radius=reach, turn=turn, name="bubble", ink=ink)
+    for size, reach, turn, ink in (
+        (3.4, 0, 0, "cotton"),
+        (2.2, 8.5, 100, "ochre"),
+        (1.5, 13.5, 78, "cotton"),
+        (1.0, 17.5, 92, "ochre"),
+        (0.8, 21.0, 84, "cotton"),
+    )
+]
+bubbles.append(Element(curve=Circle(2.0), name="bubble", treatment="cut"))
+
+recipe = Recipe(
+    title="Nautilus",
+    cloth=ClothSpec(colour="#143642"),
+    ink={"cotton": InkSpec(colour="#f2ead8"), "ochre": InkSpec(colour="#d99a4e")},
+    motif={"shell": Rosette(elements=shell), "bubbles": Rosette(elements=bubbles)},
+    place=[
+        Placement(motif="shell", scale=0.66, at=(28.0, 26.0), turn=20),
+        Placement(motif="bubbles", scale=0.68, at=(62.0, 32.0)),
+    ],
+    tile=TileSpec(size=(114.0, 116.0), repeat="pgg"),
+)
