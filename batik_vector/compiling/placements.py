@@ -18,6 +18,7 @@ from batik_vector.geometry.ifs import distinct
 from batik_vector.geometry.maps.affine import Affine
 from batik_vector.geometry.maps.affines import ONE, Affines
 from batik_vector.geometry.sampling import Array, Points
+from batik_vector.recipe.drawing import Svg
 from batik_vector.recipe.figures import Figure, draw, size_of
 from batik_vector.recipe.model import Recipe
 from batik_vector.recipe.motif import Motif, Treatment
@@ -134,7 +135,7 @@ def _drawn(
     finest = max(fineness - GRID_SHARE, fineness / 2) / max(orbit.base.stretch, 1.0)
     with blame("layout"):
         images = layout.images(_in_units(cell, placement.scale or 1.0))
-    coarse = _coarse(motif, images, finest, placement.scale)
+    coarse = _coarse(motif, images, finest, placement.scale or _foreseen(placement, motif, images))
     rough = draw(motif, coarse)
     foretold = _refuse_past(limit, rough, images, times)
     with blame("layout"):
@@ -167,8 +168,16 @@ def _coarse(motif: Motif, images: Affines | Bend, finest: float, scale: float | 
     if scale is None or isinstance(images, Bend):
         return coarse
     contours = sum(part.count * part.contours for part in motif.parts())
-    least = coarse if contours > FEW_CONTOURS else coarse / 100
+    # What a drawing has of them is known, and none of them stands for more.
+    least = coarse if contours > FEW_CONTOURS and not isinstance(motif, Svg) else coarse / 100
     return max(least, _rung(finest / scale / float(images.stretches.max())))
+
+
+def _foreseen(placement: Placement, motif: Motif, images: Affines | Bend) -> float | None:
+    """Return about the scale that a drawing's outlines ask for, so that it need not be drawn twice."""
+    single = isinstance(images, Affines) and len(images) == 1
+    breadth = motif.breadth if isinstance(motif, Svg) and single else 0.0
+    return placement.width / breadth if placement.width and breadth else None
 
 
 def _mirrored(laid: Laid, orbit: Orbit, crumb: float) -> Laid:

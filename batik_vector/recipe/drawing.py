@@ -196,11 +196,17 @@ class Svg(Look):
         drawing: Drawing | None = self.drawing
         return drawing.marks if drawing else ()
 
-    @functools.cached_property
+    @property
     def size(self) -> float:
-        """The size of what lies about the origin, in units, where a flower's would be about 1."""
+        """Half the larger side of what is drawn, in units, where a flower's would be about 1."""
         drawing: Drawing | None = self.drawing
-        return drawing.size() / 2 / self.unit if drawing else 1.0
+        return max(drawing.sides) / 2 / self.unit if drawing else 1.0
+
+    @property
+    def breadth(self) -> float:
+        """How broad the outlines are that are drawn, in units; 0 before they have been read."""
+        drawing: Drawing | None = self.drawing
+        return drawing.sides[0] / self.unit if drawing else 0.0
 
     def parts(self) -> tuple[Part, ...]:
         """Return the parts that are drawn, bottom first; none before the drawing has been read."""

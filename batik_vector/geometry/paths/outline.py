@@ -104,13 +104,14 @@ def bounds_of(outline: Outline) -> tuple[float, float, float, float]:
     end = np.flatnonzero(outline.kinds == CURVE)
     control = outline.points[end[:, None] + np.array([-3, -2, -1, 0])]
     plain = outline.points[outline.kinds != CONTROL]
-    reached = []
+    low, high = plain.min(axis=0), plain.max(axis=0)
+    # A curve reaches no further than its handles.
+    control = control[((control < low) | (control > high)).any(axis=(1, 2))]
     for axis in (0, 1):
         curved = control[:, :, axis]
         turns = bernstein(curved[:, None, :], turns_of(curved))
-        reached.append(np.concatenate([plain[:, axis], turns.ravel()]))
-    x, y = reached
-    return float(x.min()), float(y.min()), float(x.max()), float(y.max())
+        low[axis], high[axis] = turns.min(initial=low[axis]), turns.max(initial=high[axis])
+    return float(low[0]), float(low[1]), float(high[0]), float(high[1])
 
 
 def box(x: float, y: float, width: float, height: float) -> Outline:

@@ -5,6 +5,7 @@ What has no one colour or no outline is refused, with the way out of it.
 
 from __future__ import annotations
 
+import functools
 import xml.etree.ElementTree as ET
 from collections.abc import Container, Sequence
 from dataclasses import replace
@@ -18,7 +19,7 @@ from batik_vector.geometry.paths.matrix import Matrix
 from batik_vector.geometry.paths.outline import CONTROL, Outline, bounds_of, joined
 from batik_vector.importing.clip_paths import Clip
 from batik_vector.importing.document import Document, DrawingError, named
-from batik_vector.importing.drawing.names import Called, Named, called, own_name
+from batik_vector.importing.drawing.names import Called, Named, called, own_name, refuse_too_many
 from batik_vector.importing.gradients import Gradient
 from batik_vector.importing.inks import is_cloth
 from batik_vector.importing.page import MM_PER_PX, Page, page_of
@@ -97,10 +98,11 @@ class Drawing:
     def __repr__(self) -> str:
         return f"Drawing of {len(self.marks)} marks"
 
-    def size(self) -> float:
-        """Return the larger side, in mm, of the box that holds the outlines."""
+    @functools.cached_property
+    def sides(self) -> tuple[float, float]:
+        """Breadth and height, in mm, of the box that holds the outlines."""
         left, low, right, high = bounds_of(joined([mark.outline for mark in self.marks]))
-        return max(right - left, high - low)
+        return right - left, high - low
 
     def colours(self) -> tuple[str, ...]:
         """Return the colours of fills and strokes, in painting order."""
@@ -148,8 +150,10 @@ def picked(document: Document, wanted: Wanted) -> set[ET.Element] | None:
     """Return the elements that matter to a motif, all round them among them; None where all do.
 
     Raises:
+        DrawingError: where it has far too many marks.
         RecipeError: for each name that picks nothing, by its key.
     """
+    refuse_too_many(document)
     if not (wanted.elements or wanted.layers):
         return None
     names = Named(document)

@@ -18,8 +18,8 @@ from batik_vector.values import frozen
 
 MOST_NAMES = 12
 """Names that a message lists where none is near."""
-MOST_LOOKED_AT = 1_000_000
-"""Elements that are looked at for their names, those behind every ``use`` counted each time."""
+MOST_MARKS = 30_000
+"""Marks of a drawing; a walk takes some ten seconds for as many."""
 _OWN = re.compile(r"(?:path|g|rect|circle|ellipse|layer|use|svg|polygon|polyline|line)[-_]?\d*+")
 """Names that programs give where nobody else did."""
 
@@ -97,26 +97,43 @@ def own_name(trail: Sequence[ET.Element]) -> str:
     return first
 
 
+def refuse_too_many(document: Document) -> None:
+    """Raise where a drawing has too many marks for a motif, once every use is followed, or is too deep."""
+    known: dict[ET.Element, int] = {}
+
+    def marks(element: ET.Element, depth: int) -> int:
+        if depth > MAX_DEPTH:
+            raise document.fault(f"nested deeper than {MAX_DEPTH} elements", element)
+        if element not in known:
+            # What leads back to itself draws nothing, and is refused where it is drawn.
+            known[element] = 0
+            within = [child for child in children(element) if local(child) not in PASSED]
+            if local(element) == "use":
+                found = document.by_id.get(reference(element)[1:])
+                within = [] if found is None else [found]
+            known[element] = sum(marks(child, depth + 1) for child in within) or 1
+        return known[element]
+
+    total = sum(marks(child, 1) for child in children(document.root) if local(child) not in PASSED)
+    if total > MOST_MARKS:
+        raise document.fault(
+            f"{total:,} marks, once every use in it is followed, expected at most {MOST_MARKS:,} in a motif"
+        )
+
+
 class Named:
     """The painted elements of a document, each with how it is called."""
 
     def __init__(self, document: Document) -> None:
         self.document = document
         self.trails: list[tuple[ET.Element, ...]] = []
-        self._looked_at = 0
         for child in children(document.root):
             if local(child) not in PASSED:
                 self._visit(child, (document.root,))
 
     def _visit(self, element: ET.Element, trail: tuple[ET.Element, ...]) -> None:
         """Note the trail of an element that is painted, or those of all that lie in it or behind it."""
-        self._looked_at += 1
-        if self._looked_at > MOST_LOOKED_AT:
-            words = f"more than {MOST_LOOKED_AT:,} elements, once every use in it is followed"
-            raise self.document.fault(words, element)
         trail = (*trail, element)
-        if len(trail) > MAX_DEPTH:
-            raise self.document.fault(f"nested deeper than {MAX_DEPTH} elements", element)
         within = [child for child in children(element) if local(child) not in PASSED]
         if local(element) == "use":
             target = reference(element)
