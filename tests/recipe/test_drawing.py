@@ -11,8 +11,9 @@ from typing import Any
 import pytest
 import shapely
 
-from batik_vector import RecipeError, compile_recipe, load_recipe, read_recipe, write_artwork
+from batik_vector import RecipeError, certify, compile_recipe, load_recipe, read_recipe, write_artwork
 from batik_vector.artwork import Artwork
+from batik_vector.compiling.compiler import inspect
 from batik_vector.export.provenance import read_provenance
 from batik_vector.recipe.drawing import Svg
 from batik_vector.recipe.model import Recipe
@@ -237,3 +238,62 @@ def test_a_drawing_is_never_replaced_by_what_is_made_of_it(tmp_path: Path) -> No
     assert done.returncode == 2
     assert "would replace the drawing that it is made of" in done.stderr
     assert (tmp_path / "k.svg").read_text() == BIRD
+
+
+LEAF = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 60 40">
+<path id="leaf" fill="#222" d="M5 20C15 5 40 5 55 20C40 35 15 35 5 20Z"/>
+<path id="vein" fill="none" stroke="#fff" stroke-width="2" stroke-dasharray="6 3"
+ d="M10 20C20 14 40 26 50 20"/>
+<path id="stem" fill="none" stroke="#222" stroke-linecap="round" stroke-width="3" transform="skewX(20)"
+ d="M55 20h-60"/></svg>"""
+VEIN = '[[motif.bird.dress]]\nelements = "vein"\ntreatment = "cut"\n'
+
+
+@pytest.mark.parametrize(
+    ("layout", "repeat"),
+    [
+        ('{ kind = "single" }', "half-drop"),
+        ('{ kind = "julian", power = 3, dist = 3, shift = [14, 5] }', "brick"),
+        ('{ kind = "ring", count = 5, radius = 30 }', "p4g"),
+        ('{ kind = "toss", distance = "1 mm", count = 3 }', "pgg"),
+    ],
+)
+def test_a_drawing_lies_in_any_layout_and_repeat_without_a_seam(
+    tmp_path: Path, layout: str, repeat: str
+) -> None:
+    path = desk(tmp_path, VEIN, LEAF)
+    text = path.read_text().replace("scale = 1", f'width = "24 mm"\nlayout = {layout}')
+    path.write_text(f'{text}repeat = "{repeat}"\n'.replace('"50 mm"]', '"70 mm"]'))
+    artwork = compile_recipe(load_recipe(path))
+    facts = inspect(artwork)
+    assert (facts["violations"], facts["seam"]) == ([], [])
+    assert certify(artwork, symmetry=False).passed
+
+
+def test_treatments_draw_fills_outlines_and_bodies(tmp_path: Path) -> None:
+    def parts(motif: str) -> list[tuple[int, int]]:
+        recipe = load_recipe(desk(tmp_path, motif, LEAF))
+        return [(len(areas), len(lines)) for _, areas, lines in svg_of(recipe).shapes(0.05)]
+
+    # The leaf's fill; the vein's five dashes; the stem's body.
+    assert parts("") == [(1, 0), (5, 0), (1, 0)]
+    assert parts('treatment = "line"\n') == [(1, 1), (0, 5), (0, 1)]
+    assert parts('treatment = "stroke"\nelements = "leaf"\n') == [(1, 1)]
+    assert parts('treatment = "both"\nelements = "leaf"\n') == [(1, 1)]
+    assert parts('treatment = "area"\nelements = "stem"\n') == [(0, 0)]
+
+
+def test_curves_are_sampled_at_the_size_at_which_they_come_to_lie(tmp_path: Path) -> None:
+    vertices = []
+    for scale in (1, 16):
+        path = desk(tmp_path, 'elements = "leaf"\n', LEAF)
+        path.write_text(path.read_text().replace("scale = 1", f"scale = {scale}"))
+        path.write_text(path.read_text().replace('"70 mm", "50 mm"', '"2 m", "2 m"'))
+        artwork = compile_recipe(load_recipe(path))
+        vertices.append(artwork.vertex_count)
+        (layer,) = artwork.layers
+        area, length = (float(measure(layer.areas).sum()) for measure in (shapely.area, shapely.length))
+        # Twice the integral of y dx over the upper curve, in px of the drawing.
+        assert area == pytest.approx(787.5 * (scale * 25.4 / 96) ** 2, abs=0.02 * length)
+    # A chord's height grows with the square of its length.
+    assert 2.5 < vertices[1] / vertices[0] < 5.5
