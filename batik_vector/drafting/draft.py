@@ -115,6 +115,8 @@ def drafted(
         # repeated, what is seen of each ink is drawn, side by side.
         flat = sketch.draft(sketch.flat())
         draft = min(draft, flat, key=lambda each: (not each.proof.holds, each.weight))
+    if drawn.ours:
+        drawn.document.note("it may carry the recipe that it was compiled from: compile it to know")
     page_notes(drawn.document, drawn.page, drawn.cell, 0.0)
     return replace(draft, notes=tuple(drawn.document.notes))
 

@@ -28,6 +28,10 @@ ALIKE = 1e-4
 """How far the linear part of an operation may be from that of another and still be the same."""
 SLACK_MM = 0.02
 """How far the places of operations may be apart (mm), at the least: what is found is measured."""
+NOISE_MM = 0.002
+"""How far an origin may be measured off its place."""
+PARTS = 24
+"""Parts of a tile's sides in which origins mostly lie."""
 REACH = range(-2, 3)
 """Lattice vectors that are tried for the place of an origin."""
 
@@ -157,15 +161,22 @@ def _placed(
             operations = unit.orbit.operations
         except BatikError:
             continue
-        origin = _origin(operations, known, lattice, slack)
+        origin = _origin(operations, known, lattice, slack, np.array(tile.size) / PARTS)
         if origin is not None:
             yield replace(unit, phase=origin)
 
 
 def _origin(
-    operations: tuple[Affine, ...], known: list[tuple[Floats, Floats]], lattice: Floats, slack: float
+    operations: tuple[Affine, ...],
+    known: list[tuple[Floats, Floats]],
+    lattice: Floats,
+    slack: float,
+    parts: Floats,
 ) -> Shift | None:
-    """Return the least shift of a group after which its operations are known; None where there is none."""
+    """Return the least shift of a group after which its operations are known; None where there is none.
+
+    What is all but a whole number of ``parts`` (mm, across and up) was meant to be one.
+    """
     linear = [np.array([[each.a, each.b], [each.c, each.d]]) for each in operations]
     shift = [np.array([each.e, each.f]) for each in operations]
     match = [
@@ -183,6 +194,8 @@ def _origin(
         for j in REACH:
             off = wanted[first] - shift[first] + lattice @ (i, j)
             place = np.linalg.lstsq(np.eye(2) - linear[first], off, rcond=1e-9)[0]
+            near = np.rint(place / parts) * parts
+            place = np.where(np.abs(near - place) <= NOISE_MM, near, place)
             gaps = [t + (np.eye(2) - m) @ place - s for m, t, s in zip(linear, shift, wanted, strict=True)]
             shares = np.linalg.solve(lattice, np.array(gaps).T)
             apart = np.hypot(*(lattice @ (shares - np.rint(shares)))).max()

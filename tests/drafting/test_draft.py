@@ -92,6 +92,17 @@ def test_what_lies_on_top_stays_there() -> None:
     assert found.motifs == 3
 
 
+def test_what_no_sheets_can_stack_is_drawn_as_it_shows() -> None:
+    # Each disc lies over the one before it, all round the torus: the first over the last, too.
+    discs = "".join(
+        f'<circle cx="{x}" cy="20" r="13" fill="{fill}"/>'
+        for x, fill in ((0, "#cc3322"), (20, "#eedd88"), (40, "#224488"), (60, "#cc3322"))
+    )
+    found = draft(discs)
+    assert found.proof.holds
+    assert found.motifs == 3
+
+
 def test_turned_and_mirrored_marks_are_copies() -> None:
     leaf = '<path d="M0 0L4 1C5 2 5 3 2 2.5Z" transform="{}"/>'
     places = ["translate(8 9)", "translate(21 30) rotate(37.5)", "translate(44 12) scale(-1 1)"]
