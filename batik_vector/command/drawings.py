@@ -93,8 +93,9 @@ def _tell(draft: Draft, source: str, files: Sequence[str]) -> None:
     for note in draft.notes:
         click.echo(f"{source}: {note}", err=True)
     size = " × ".join(f"{side:g}" for side in draft.unit.tile.size)
+    marks, kinds = _several(draft.marks, "mark"), _several(draft.motifs, "kind")
     click.echo(
-        f"{source}: symmetry group {draft.group.name}; {draft.marks:,} marks of {draft.motifs:,} kinds, "
+        f"{source}: symmetry group {draft.group.name}; {marks} of {kinds}, "
         f"{draft.placed:,} placed in a unit of {size} mm ({draft.unit.name})",
         err=True,
     )
@@ -108,6 +109,10 @@ def _tell(draft: Draft, source: str, files: Sequence[str]) -> None:
         err=True,
     )
     click.echo(f"{' and '.join(files)} written. Next: batik-vector compile {files[0]}", err=True)
+
+
+def _several(count: int, what: str) -> str:
+    return f"{count:,} {what}" if count == 1 else f"{count:,} {what}s"
 
 
 @click.command("export-motif")

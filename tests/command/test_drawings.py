@@ -35,7 +35,7 @@ def test_a_tile_becomes_a_recipe_that_compiles(desk: Path) -> None:
     Path("leaves.svg").write_bytes(LEAVES)
     done = call("import", "leaves.svg")
     assert done.exit_code == 0, done.stderr
-    assert "symmetry group p1; 4 marks of 1 kinds, 1 placed in a unit of 20 × 20 mm (grid)" in done.stderr
+    assert "symmetry group p1; 4 marks of 1 kind, 1 placed in a unit of 20 × 20 mm (grid)" in done.stderr
     assert "leaves.toml written. Next: batik-vector compile leaves.toml" in done.stderr
     assert call("compile", "leaves.toml", "-o", "out").exit_code == 0
     assert call("check", "leaves.toml").exit_code == 0
