@@ -204,6 +204,7 @@ UNUSED = (
     "batik_vector.export.pdf batik_vector.export.dxf batik_vector.export.png",
     "batik_vector.recipe.reading.validator batik_vector.recipe.reading.lines",
     "batik_vector.recipe.reading.overrides batik_vector.recipe.schema",
+    "batik_vector.recipe.reading.drawings batik_vector.importing.walk",
 )
 
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import xml.etree.ElementTree as ET
 from collections.abc import Container, Iterator
-from xml.sax.saxutils import escape
 
 from batik_vector.importing.document import INKSCAPE, SERIF, SVG, XLINK, Document, local
 from batik_vector.importing.walk import PASSED
@@ -25,7 +24,8 @@ _KEPT = frozenset(
 """Attributes of other namespaces that say what is drawn, and what it is called."""
 _LEFT = frozenset(("metadata", "title", "desc", "script", "image", "text", "font", "foreignObject"))
 _NAMES = ("id", "class")
-_QUOTED = {'"': "&quot;", "'": "&apos;", "\n": "&#10;", "\t": "&#9;", "\r": "&#13;", "\x7f": "&#127;"}
+_ESCAPED = {"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "'": "&apos;"}
+_ESCAPED |= {"\n": "&#10;", "\t": "&#9;", "\r": "&#13;", "\x7f": "&#127;"}
 
 
 def carried(document: Document, kept: Container[ET.Element] | None) -> str:
@@ -69,7 +69,7 @@ class _Writer:
             return
         attributes = dict(more or {}) | (_names(element) if bare else _said(element))
         inside = [] if bare else [each for each in element if local(each)]
-        text = escape(element.text or "", _QUOTED) if kind == "style" else ""
+        text = _escaped(element.text or "") if kind == "style" else ""
         yield f"<{kind}{_written(attributes)}"
         if not inside and not text:
             yield "/>\n"
@@ -97,4 +97,11 @@ def _said(element: ET.Element) -> dict[str, str]:
 
 
 def _written(attributes: dict[str, str]) -> str:
-    return "".join(f' {name}="{escape(value, _QUOTED)}"' for name, value in attributes.items())
+    return "".join(f' {name}="{_escaped(value)}"' for name, value in attributes.items())
+
+
+def _escaped(text: str) -> str:
+    for mark, stands in _ESCAPED.items():
+        if mark in text:
+            text = text.replace(mark, stands)
+    return text
