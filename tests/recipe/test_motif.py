@@ -10,7 +10,18 @@ from batik_vector.errors import GeometryError
 from batik_vector.geometry.curves import Circle, Hypocycloid, Rose, Spiral, Star, Superellipse, trace
 from batik_vector.geometry.regions import FillRule, settle
 from batik_vector.recipe.figures import draw
-from batik_vector.recipe.motif import Core, Element, Flower, Leaf, Petals, Pistil, Rosette, most_contours
+from batik_vector.recipe.motif import (
+    Core,
+    Element,
+    Flower,
+    Leaf,
+    PathMotif,
+    Petals,
+    Pistil,
+    Rosette,
+    Treatment,
+    most_contours,
+)
 from tests.budgets import counted
 
 TOLERANCE = 1e-3
@@ -143,3 +154,64 @@ def test_copies_are_spun_set_out_turned_and_mirrored() -> None:
     c, s = np.cos(np.radians(30)), np.sin(np.radians(30))
     assert first == pytest.approx([2 * c - s, 2 * s + c])
     assert np.array(lines[1].coords)[-1] == pytest.approx([2 * c + s, 2 * s - c])
+
+
+DISC = shapely.Point(0, 0).buffer(3)
+RING = DISC - shapely.box(-1, -1, 1, 1)
+
+
+def test_geometry_of_shapely_is_an_element() -> None:
+    element = Element.from_geometry(RING, name="ring", ink="wax", gap=1.0)
+    assert (element.name, element.ink, element.gap) == ("ring", "wax", 1.0)
+    (figure,) = draw(Rosette(elements=(element,)), TOLERANCE)
+    (ring,) = figure.areas
+    assert ring.equals(RING)
+    both = [RING, shapely.Point(9, 0).buffer(1), shapely.MultiPolygon([shapely.box(20, 0, 21, 1)])]
+    (figure,) = draw(Rosette(elements=(Element.from_geometry(both),)), TOLERANCE)
+    assert shapely.area(figure.areas).sum() == pytest.approx(sum(each.area for each in both))
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_holes_stay_holes_whichever_way_they_run(turned: bool) -> None:
+    shape = shapely.reverse(RING) if turned else RING
+    for fill in FillRule:
+        (figure,) = draw(Rosette(elements=(Element.from_geometry(shape, fill=fill),)), TOLERANCE)
+        hole = 0 if fill == FillRule.OUTLINE else 4
+        assert shapely.area(figure.areas).sum() == pytest.approx(DISC.area - hole)
+
+
+def test_lines_of_shapely_are_lines() -> None:
+    lines = shapely.MultiLineString([[(0, 0), (3, 0), (3, 2)], [(5, 5), (6, 6)]])
+    element = Element.from_geometry(lines, treatment=Treatment.LINE)
+    (figure,) = draw(Rosette(elements=(element,)), TOLERANCE)
+    assert len(figure.areas) == 0
+    assert shapely.length(figure.lines).tolist() == [5, pytest.approx(2**0.5)]
+    with pytest.raises(GeometryError, match="an open line has no area to fill"):
+        Element.from_geometry(lines)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "words"),
+    [
+        (shapely.Point(1, 2), "a geometry of points, expected polygons or lines"),
+        (shapely.Polygon(), "an empty geometry"),
+        ([], "an empty geometry"),
+        (shapely.from_wkt("LINESTRING (0 0, 1 inf)"), "coordinates that are not finite"),
+        ("a leaf", 'a leaf", expected geometry of shapely'),
+        (None, "None, expected geometry of shapely"),
+    ],
+)
+def test_what_is_no_shape_is_refused(wrong: object, words: str) -> None:
+    with pytest.raises(GeometryError, match=words):
+        Element.from_geometry(wrong)
+
+
+def test_a_path_is_a_motif_about_its_middle() -> None:
+    motif = PathMotif(d="M10 10H14V12H10Z", ink="wax", gap=0.5)
+    (part,) = motif.parts()
+    assert (part.ink, part.gap) == ("wax", 0.5)
+    (figure,) = draw(motif, TOLERANCE)
+    assert shapely.total_bounds(figure.areas).tolist() == [-2, -1, 2, 1]
+    (figure,) = draw(PathMotif(d="M10 10H14V12H10Z", centre=(10, 12)), TOLERANCE)
+    assert shapely.total_bounds(figure.areas).tolist() == [0, 0, 4, 2]
+    assert most_contours(PathMotif(d=motif.d, contours=3)) == ("contours", 3)

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 
 from batik_vector.errors import GeometryError
-from batik_vector.fields import check
+from batik_vector.fields import check, given
 from batik_vector.geometry.curves.function import Called, corners_of
 from batik_vector.geometry.paths.data import path_of
 from batik_vector.geometry.paths.outline import CURVE, LINE, MOVE, Outline
@@ -79,8 +79,8 @@ class Curve:
             GeometryError: where the function gives anything else.
         """
         at = Called.of(function)
-        if corners is None:
-            corners = corners_of(at)
+        closed = given(closed, bool | None, "closed")
+        corners = corners_of(at) if corners is None else given(corners, tuple[float, ...], "corners")
         if closed is None:
             ends = at(np.array([0.0, 0.5, 1.0]))
             closed = bool(np.abs(ends[2] - ends[0]).max() <= MEET * np.abs(ends).max())
@@ -98,7 +98,8 @@ class Curve:
         Raises:
             GeometryError: for points that are not finite, too few of them, and corners that are none.
         """
-        return OutlineCurve(through(points, smooth, closed, corners))
+        smooth, closed = given(smooth, bool, "smooth"), given(closed, bool, "closed")
+        return OutlineCurve(through(points, smooth, closed, given(corners, tuple[int, ...], "corners")))
 
     @staticmethod
     def from_path(d: str, *, y: str = "down", centre: tuple[float, float] = (0.0, 0.0)) -> Curve:
@@ -112,7 +113,8 @@ class Curve:
         Raises:
             GeometryError: where they are no path data, or draw nothing.
         """
-        return OutlineCurve(path_of(d, y == "up", centre))
+        d, y = given(d, str, "d"), given(y, Literal["down", "up"], "y")
+        return OutlineCurve(path_of(d, y == "up", given(centre, tuple[float, float], "centre")))
 
 
 MEET = 1e-6

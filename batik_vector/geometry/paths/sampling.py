@@ -10,13 +10,16 @@ from numpy.typing import NDArray
 from batik_vector.errors import TooLargeError
 from batik_vector.geometry.paths.cubics import evaluated, needed
 from batik_vector.geometry.paths.outline import CURVE, LINE, MOVE, Outline
-from batik_vector.geometry.sampling import MAX_POINTS, REFINE_SHARE, Array, Indices, Points, refine, thin
+from batik_vector.geometry.sampling import MAX_POINTS, Array, Indices, Points, refine, thin
 from batik_vector.values import frozen
 
 Mask = NDArray[np.bool_]
 
 SMOOTH = 0.01
 """Cubics that meet under less than this angle (radians) run on; a sharper joint is a corner and stays."""
+DENSER = 1 / 52
+"""Share of the tolerance spent on dividing curves, before vertices are chosen among them. A chord may then
+pass six and reach the seventh: where it just could not, every other chord would be divided in two."""
 JOINED_SHARE = 1e-3
 """Ends of a closed subpath this near, as a share of the tolerance, are one point: files cut off numbers."""
 LEAST_CORNERS = 6
@@ -71,7 +74,7 @@ def sampled(outline: Outline, tolerance: float | Callable[[Points], Array]) -> P
     """
     dense, fixed = _dense(outline.shut(0.0 if callable(tolerance) else JOINED_SHARE * tolerance), tolerance)
     if not callable(tolerance) and len(dense.points):
-        keep = thin(dense.points, dense.offsets, tolerance * (1 - REFINE_SHARE), fixed)
+        keep = thin(dense.points, dense.offsets, tolerance * (1 - DENSER), fixed)
         _keep_shapes(dense, fixed, keep)
         dense = _taken(dense, keep)
     return dense
@@ -120,7 +123,7 @@ def _divided(
         # From the starts of pieces to their ends.
         last = np.append(owner[1:] != owner[:-1], True)[: len(owner)]
         return owner, np.where(last, 1.0, np.append(at[1:], 1.0)[: len(owner)])
-    pieces = np.maximum(np.ceil(needed(control, tolerance * REFINE_SHARE) - 1e-6), least)
+    pieces = np.maximum(np.ceil(needed(control, tolerance * DENSER) - 1e-6), least)
     if (total := float(pieces.sum())) > MAX_POINTS:
         raise TooLargeError(f"its curves would need {total:.3g} vertices at this tolerance")
     owner, rank = _ranked(np.arange(len(control)), pieces.astype(np.intp))
