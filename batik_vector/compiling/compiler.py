@@ -19,7 +19,7 @@ from batik_vector.compiling.placements import Placed, place
 from batik_vector.errors import Fault, RecipeError, TooLargeError, blame
 from batik_vector.fields import Instead, given
 from batik_vector.geometry import work
-from batik_vector.recipe.model import Recipe
+from batik_vector.recipe.model import Placement, Recipe
 from batik_vector.recipe.motif import most_contours
 from batik_vector.recipe.references import dotted
 from batik_vector.tiling.torus import seams
@@ -59,7 +59,7 @@ def _compiled(recipe: Recipe, tell: Progress) -> Artwork:
     before: list[Placed] = []
     for number, placement in enumerate(recipe.place):
         tell(f"placing {', '.join(placement.motifs)}")
-        with blame(f"place[{number}]"):
+        with blame(f"place[{number}]"), _dense(placement, recipe):
             orbit = recipe.tiling.orbit(placement.symmetry, placement.phase, placement.spread)
             placed = place(placement, recipe, unit, inks, recipe.limit - spent, orbit, before)
         before.append(placed)
@@ -76,6 +76,15 @@ def _compiled(recipe: Recipe, tell: Progress) -> Artwork:
 
 
 @contextmanager
+def _dense(placement: Placement, recipe: Recipe) -> Iterator[None]:
+    """Name the contours of a placement where its marks are too much."""
+    try:
+        yield
+    except TooLargeError as error:
+        raise TooLargeError(f"{error}{_contours(placement, recipe)}") from error
+
+
+@contextmanager
 def _laid_to(placed: Sequence[Placed], recipe: Recipe) -> Iterator[None]:
     """Name the placement that gives the most, and its contours, where the marks of all are too much."""
     try:
@@ -84,11 +93,13 @@ def _laid_to(placed: Sequence[Placed], recipe: Recipe) -> Iterator[None]:
         most = max(range(len(placed)), key=lambda number: placed[number].vertices)
         share = f"{placed[most].vertices:,} of {sum(each.vertices for each in placed):,}"
         text = f"{error}; the most vertices, {share}, are those of place[{most}]"
-        dense = [(name, *most_contours(recipe.motif[name])) for name in recipe.place[most].motifs]
-        name, key, contours = max(dense, key=lambda each: each[2])
-        if contours > 1:
-            text += f", with {dotted(('motif', name))}.{key} = {contours}"
-        raise TooLargeError(text) from error
+        raise TooLargeError(text + _contours(recipe.place[most], recipe)) from error
+
+
+def _contours(placement: Placement, recipe: Recipe) -> str:
+    dense = [(name, *most_contours(recipe.motif[name])) for name in placement.motifs if name in recipe.motif]
+    name, key, contours = max(dense, key=lambda each: each[2], default=("", "", 1))
+    return f", with {dotted(('motif', name))}.{key} = {contours}" if contours > 1 else ""
 
 
 def _facts(recipe: Recipe, placed: Sequence[Placed]) -> dict[str, Any]:

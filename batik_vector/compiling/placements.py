@@ -14,6 +14,7 @@ from batik_vector.artwork import Cell, Geometries, Ink
 from batik_vector.compiling.copies import Laid, Look, set_down, sized
 from batik_vector.compiling.grounds import Ground, lattice_of, scattered, striped
 from batik_vector.errors import GeometryError, RecipeError, TooLargeError, UnknownNameError, blame
+from batik_vector.geometry import work
 from batik_vector.geometry.ifs import distinct
 from batik_vector.geometry.maps.affine import Affine
 from batik_vector.geometry.maps.affines import ONE, Affines
@@ -143,6 +144,8 @@ def _drawn(
         if not (placement.scale or layout.spreads):
             images = layout.images(_in_units(cell, scale))
     foretold = max(foretold, _refuse_past(limit, rough, images, times, coarse * scale / fineness))
+    if isinstance(images, Bend):
+        work.spend(foretold, per_vertex=work.PER_BENT_VERTEX)
     with blame("layout"):
         figures, copies = _set_out(motif, images, finest / scale)
     if placement.width and layout.spreads:

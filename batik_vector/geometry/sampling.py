@@ -41,7 +41,7 @@ PROBES = np.array([0.2113, 0.5, 0.7887])
 S-shaped piece that crosses its chord in the middle stands off the most."""
 
 MAX_ROUNDS = 64
-MAX_POINTS = 30_000_000
+MAX_POINTS = 6_000_000
 
 
 def deviation(points: Points, start: Points, end: Points) -> Array:

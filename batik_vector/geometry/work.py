@@ -20,12 +20,41 @@ from batik_vector.errors import TooLargeError
 from batik_vector.geometry.sampling import Array, Geometries, Indices
 
 LIMIT = 20_000_000.0
-"""What one compilation may do. What is counted goes through several overlays of one recipe, and most of it
-through fast ones: a recipe at half of the limit takes some ten seconds, others at it a minute."""
+"""What one compilation may do, in vertices that go through a union: about a millionth of a second each."""
 
-PER_CROSSING, PER_SELF_CROSSING = 0.05, 80.0
-"""What a crossing of two areas, and one of lines, costs in vertices that go through a union: areas that lie
-over one another dissolve as they are united, and lines do not."""
+PER_CROSSING = 15.0
+"""What a crossing costs whose place is a vertex of the result: five where shapes are small, and twenty
+where they have thousands of holes."""
+
+PER_LOST_CROSSING = 0.05
+"""What a crossing costs that lies inside a third shape: as areas are united most of them never come about."""
+
+PER_SELF_CROSSING = 80.0
+"""What a crossing of lines costs, by which a region is divided into faces."""
+
+PER_CUTTER_VERTEX = 0.07
+"""What a vertex costs of what cuts a mark, or of what a window cuts: most lie far from the cut."""
+
+PER_PAIR, PER_PAIR_VERTEX = 3.0, 0.006
+"""What it costs to find two shapes whose bounds meet and to ask whether they do, and each vertex of one."""
+
+PER_BENT_VERTEX = 4.0
+"""What a vertex costs of a motif that a layout bends: it is one of the many points that are tried."""
+
+PER_RELATED_VERTEX = 0.1
+"""What a vertex costs of shapes that are asked whether their insides meet."""
+
+PER_GROWN_VERTEX = 2.5
+"""What a vertex costs of a shape that is grown."""
+
+PER_MENDED_VERTEX, PER_ROUNDED_VERTEX = 12.0, 5.0
+"""What a vertex costs that is mended or overlaid on the grid, and one that GEOS only rounds there."""
+
+PER_DART = 15.0
+"""What a dart of a toss costs, and each of its images."""
+
+BATCH = 200_000
+"""Vertices of the overlays that are done at one go; what they have cost is counted after each."""
 
 MAX_PAIRS = 10_000_000
 """Pairs of shapes whose bounds meet: they are held in memory all at once."""
@@ -36,46 +65,125 @@ SMALL, FEW = 20_000, 500
 SAMPLED = 96
 """Edges, or shapes, that are asked how often others cross them."""
 
+ASKED = 24
+"""Areas about a crossing, about, that are asked whether it lies in them."""
+
 SAMPLED_VERTICES = 100_000
 """Vertices of the pairs of shapes that are asked for their crossings, about."""
 
-_spent: contextvars.ContextVar[list[float] | None] = contextvars.ContextVar("spent", default=None)
+
+class _Account:
+    """What was spent, and on how many vertices, crossings and pairs."""
+
+    def __init__(self) -> None:
+        self.spent = self.vertices = self.crossings = self.pairs = 0.0
+
+    def take(self, cost: float, vertices: float = 0.0, crossings: float = 0.0, pairs: float = 0.0) -> None:
+        self.vertices += vertices
+        self.crossings += crossings
+        self.pairs += pairs
+        self.spent += cost
+        if self.spent > LIMIT:
+            counted = (("cross", self.crossings), ("meet", self.pairs))
+            often = " and ".join(f"{do} about {_about(times)} times" for do, times in counted if times >= 1)
+            raise TooLargeError(
+                f"shapes of about {_about(self.vertices)} vertices{' that ' if often else ''}{often} to "
+                "overlay, more than fits: expected fewer or smaller ones, fewer contours, or a larger tile"
+            )
+
+
+_open: contextvars.ContextVar[_Account | None] = contextvars.ContextVar("open", default=None)
 
 
 @contextlib.contextmanager
 def account() -> Iterator[None]:
     """Count all work inside together; what is in no account is counted by itself."""
-    token = _spent.set([0.0])
+    if _open.get() is not None:
+        yield
+        return
+    token = _open.set(_Account())
     try:
         yield
     finally:
-        _spent.reset(token)
+        _open.reset(token)
 
 
-def spend(vertices: float, crossings: float = 0.0, each: float = PER_CROSSING) -> None:
-    """Take up work that is about to be done.
+def spend(
+    vertices: float, crossings: float = 0.0, *, per_vertex: float = 1.0, per_crossing: float = PER_CROSSING
+) -> None:
+    """Take up work that is about to be done, or has been.
 
     Args:
         vertices: that go through an overlay.
         crossings: of their edges.
-        each: what a crossing costs, in vertices.
+        per_vertex, per_crossing: what each costs, in vertices that go through a union.
 
     Raises:
         TooLargeError: where all work comes to more than ``LIMIT``, with the counts.
     """
-    spent = _spent.get()
-    spent = [0.0] if spent is None else spent
-    spent[0] += vertices + each * crossings
-    if spent[0] > LIMIT:
-        crossing = f" that cross about {_about(crossings)} times" if crossings >= 1 else ""
-        raise TooLargeError(
-            f"shapes of about {_about(vertices)} vertices{crossing} to overlay, more than fits: "
-            "expected fewer or smaller ones, fewer contours, or a larger tile"
-        )
+    cost = per_vertex * vertices + per_crossing * crossings
+    (_open.get() or _Account()).take(cost, vertices, crossings)
 
 
-def spend_on_shapes(groups: Sequence[Geometries]) -> None:
-    """Take up the work of uniting each of several groups of areas.
+def foretell(vertices: float, crossings: float, lost: float = 0.0) -> None:
+    """Raise where work that is going to be taken up step by step would come to more than ``LIMIT``.
+
+    Args:
+        vertices, crossings: as for :func:`spend`, counted on a sample.
+        lost: crossings that will lie inside a third shape.
+    """
+    ahead, now = _Account(), _open.get() or _Account()
+    ahead.take(now.spent, now.vertices, now.crossings, now.pairs)
+    ahead.take(vertices + PER_CROSSING * crossings + PER_LOST_CROSSING * lost, vertices, crossings + lost)
+
+
+def spend_on_union(given: Geometries, made: Geometries) -> None:
+    """Take up the work of overlays that are done: what went in, and the crossings that came about."""
+    count, out = (int(shapely.get_num_coordinates(each).sum()) for each in (given, made))
+    spend(count, _come_about(given, made) if max(count, out) > SMALL else 0.0)
+
+
+def spend_on_cuts(marks: Geometries, away: Geometries, left: Geometries) -> None:
+    """Take up the work of cutting marks that is done, each by what was taken away from it."""
+    before, cutting, after = (float(shapely.get_num_coordinates(each).sum()) for each in (marks, away, left))
+    spend(cutting, per_vertex=PER_CUTTER_VERTEX)
+    spend(before, max(after - before, 0.0))
+
+
+def spend_on_pairs(count: int) -> None:
+    """Take up the work of looking at pairs of shapes whose bounds meet."""
+    (_open.get() or _Account()).take(PER_PAIR * count, pairs=count)
+
+
+def spend_on_asking(shapes: Geometries, asked: Indices, per_vertex: float = PER_PAIR_VERTEX) -> None:
+    """Take up the work of asking shapes, given by their numbers, how they lie to others."""
+    vertices = float(shapely.get_num_coordinates(shapes)[asked].sum())
+    (_open.get() or _Account()).take(per_vertex * vertices)
+
+
+def spend_on_darts(count: int) -> None:
+    """Take up the work of throwing darts, images under the symmetry counted."""
+    (_open.get() or _Account()).take(PER_DART * count)
+
+
+def batches(sizes: NDArray[np.int64], most: int = BATCH) -> Iterator[slice]:
+    """Yield runs of rows of at most so many vertices together; a row of more is a run by itself."""
+    total = np.cumsum(sizes)
+    first, before = 0, 0
+    while first < len(sizes):
+        end = max(int(np.searchsorted(total, before + most, side="right")), first + 1)
+        yield slice(first, end)
+        first, before = end, int(total[end - 1])
+
+
+def _come_about(given: Geometries, made: Geometries) -> int:
+    """Return how many vertices of results were none before."""
+    before, after = (shapely.get_coordinates(each).view(np.complex128).ravel() for each in (given, made))
+    return int(np.isin(after, before, invert=True).sum())
+
+
+def foretell_union(groups: Sequence[Geometries]) -> None:
+    """Look ahead at the work of uniting each of several groups of areas.
 
     Raises:
         TooLargeError: as :func:`spend`.
@@ -85,12 +193,12 @@ def spend_on_shapes(groups: Sequence[Geometries]) -> None:
     vertices = shapely.get_num_coordinates(areas)
     total = float(vertices.sum())
     if total < SMALL:
-        spend(total)
         return
     # Of many groups some stand for all.
     asked = np.isin(group, _some(len(groups), SAMPLED // 8))
     share = total / max(float(vertices[asked].sum()), 1.0)
-    spend(total, _crossings(areas[asked], group[asked]) * share)
+    left, lost = _crossings(areas[asked], group[asked])
+    foretell(total, left * share, lost * share)
 
 
 def spend_on_lines(lines: Geometries, *, each: bool = False) -> None:
@@ -100,7 +208,7 @@ def spend_on_lines(lines: Geometries, *, each: bool = False) -> None:
         TooLargeError: as :func:`spend`.
     """
     count = int(shapely.get_num_coordinates(lines).sum())
-    spend(count, self_crossings(lines, each=each) if count > FEW else 0.0, PER_SELF_CROSSING)
+    spend(count, self_crossings(lines, each=each) if count > FEW else 0.0, per_crossing=PER_SELF_CROSSING)
 
 
 def refuse_pairs(tree: shapely.STRtree, boxes: Geometries) -> None:
@@ -153,15 +261,19 @@ def _side(p: Array, q: Array, r: Array) -> Array:
     return found
 
 
-def _crossings(areas: Geometries, group: Indices) -> float:
-    """Return about how often the outlines of areas cross those of others in their group."""
+def _crossings(areas: Geometries, group: Indices) -> tuple[float, float]:
+    """Return about how often the outlines of areas cross those of others in their group.
+
+    The first number is of crossings on the outline of all together, the second of those inside a third area.
+    """
     asked = _some(len(areas), SAMPLED)
-    mine, other = shapely.STRtree(areas).query(areas[asked])
+    tree = shapely.STRtree(areas)
+    mine, other = tree.query(areas[asked])
     mine = asked[mine]
     met = (mine != other) & (group[mine] == group[other])
     mine, other = mine[met], other[met]
     if not len(mine):
-        return 0.0
+        return 0.0, 0.0
     vertices = shapely.get_num_coordinates(areas)
     each = float((vertices[mine] + vertices[other]).mean())
     pairs = _some(len(mine), min(4 * SAMPLED, max(4, int(SAMPLED_VERTICES / each))))
@@ -170,8 +282,27 @@ def _crossings(areas: Geometries, group: Indices) -> float:
     )
     share = len(mine) / len(pairs) * len(areas) / len(asked) / 2
     # Stretches that two outlines share dissolve, and add nothing to what goes in.
-    points = int((shapely.get_type_id(shapely.get_parts(crossed)) == shapely.GeometryType.POINT).sum())
-    return points * share
+    points, pair = shapely.get_parts(crossed, return_index=True)
+    there = shapely.get_type_id(points) == shapely.GeometryType.POINT
+    points, pair = points[there], pair[there]
+    some = _some(len(points), SAMPLED)
+    at, over = _covers(tree, points[some])
+    of = pairs[pair[some]][at]
+    third = (over != mine[of]) & (over != other[of]) & (group[over] == group[mine[of]])
+    inside = np.bincount(at[third], minlength=len(some)) > 0
+    left = len(points) * float((~inside).mean()) if len(some) else 0.0
+    return left * share, (len(points) - left) * share
+
+
+def _covers(tree: shapely.STRtree, points: Geometries) -> tuple[Indices, Indices]:
+    """Return points, by their numbers, and areas that hold them; of many about a point some are asked."""
+    at, over = tree.query(points)
+    count = np.bincount(at, minlength=len(points))
+    place = np.arange(len(at)) - np.repeat(np.cumsum(count) - count, count)
+    asked = place * ASKED % np.maximum(count[at], 1) < ASKED
+    at, over = at[asked], over[asked]
+    held = shapely.within(points[at], tree.geometries[over])
+    return at[held], over[held]
 
 
 def _some(count: int, most: int) -> Indices:

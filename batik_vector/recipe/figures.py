@@ -143,8 +143,8 @@ def _bands(nested: list[Geometries]) -> Geometries:
     total = np.array([shapely.union_all(part) for part in nested], dtype=object)
     while len(total) > 1:
         pairs = len(total) // 2
-        work.spend(float(shapely.get_num_coordinates(total).sum()))
         joined = shapely.symmetric_difference(total[: 2 * pairs : 2], total[1 : 2 * pairs : 2])
+        work.spend_on_union(total, joined)
         total = np.concatenate([joined, total[2 * pairs :]])
     # Where bands meet in a point a hair of line may be left.
     parts = shapely.get_parts(total)

@@ -85,7 +85,7 @@ BUDGETS = Budgets(
 )
 pytestmark = pytest.mark.filterwarnings("always::tests.budgets.LooseBudgetWarning")
 
-FORETOLD = 10
+FORETOLD = 16
 """Calls by which the work of many shapes is foretold, where that of a few need not be."""
 
 SAMPLE = Path(__file__).resolve().parents[2] / "samples" / "four-square.toml"

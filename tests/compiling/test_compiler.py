@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from batik_vector import read_recipe
 from batik_vector.artwork import Artwork, Overlap, violations
+from batik_vector.compiling import placements
 from batik_vector.compiling.compiler import compile_recipe, inspect
 from batik_vector.errors import RecipeError
 from batik_vector.geometry import work
@@ -332,4 +333,19 @@ def test_marks_that_cross_too_often_are_refused_with_the_contours_that_make_them
         ink=WAX,
     )
     with pytest.raises(RecipeError, match="contours = 4"):
+        compile_recipe(recipe)
+
+
+def test_a_bent_motif_of_far_too_many_vertices_is_refused_before_it_is_bent(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(placements, "_set_out", None)
+    monkeypatch.setattr(work, "LIMIT", 1000.0)
+    recipe = Recipe(
+        motif={"m": Flower()},
+        place=(Placement(motif="m", layout=Julian(dist=2.5, level=1), scale=20.0),),
+        tile=TileSpec(size=(300.0, 300.0)),
+        ink=WAX,
+    )
+    with pytest.raises(RecipeError, match=r"place\[0\].* vertices"):
         compile_recipe(recipe)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import shapely
+from numpy.typing import NDArray
 
 from batik_vector.errors import TooLargeError
 from batik_vector.geometry import work
@@ -46,13 +47,60 @@ def test_an_account_adds_up_what_is_spent_inside_it() -> None:
     work.spend(half)
 
 
-def test_discs_that_all_lie_on_one_another_are_refused_and_those_apart_are_not() -> None:
-    rng = np.random.default_rng(2)
-    for spread, fits in ((40_000.0, True), (1.0, False)):
-        centres = shapely.points(rng.random((30_000, 2)) * spread)
-        discs = np.asarray(shapely.buffer(centres, 1.0), dtype=object)
-        if fits:
-            work.spend_on_shapes([discs])
-        else:
-            with pytest.raises(TooLargeError):
-                work.spend_on_shapes([discs])
+def test_an_account_inside_an_account_is_the_same() -> None:
+    half = 0.6 * work.LIMIT
+    with work.account():
+        work.spend(half)
+        with pytest.raises(TooLargeError), work.account():
+            work.spend(half)
+
+
+def strips(count: int) -> NDArray[np.object_]:
+    """Thin strips across one another: united, they leave a hole wherever four of them meet."""
+    lines = shapely.linestrings(np.random.default_rng(3).random((count, 2, 2)))
+    return np.asarray(shapely.buffer(lines, 1e-5, quad_segs=2), dtype=object)
+
+
+def discs(count: int, spread: float) -> NDArray[np.object_]:
+    centres = shapely.points(np.random.default_rng(2).random((count, 2)) * spread)
+    return np.asarray(shapely.buffer(centres, 1.0), dtype=object)
+
+
+def test_strips_that_cross_are_refused_and_discs_are_not_whose_crossings_lie_inside_others() -> None:
+    # As many crossings, about, of the same number of shapes.
+    work.foretell_union([discs(2000, 8.0)])
+    with pytest.raises(TooLargeError, match=r"cross about [\d,]+ times"):
+        work.foretell_union([strips(2000)])
+
+
+def test_discs_are_refused_where_far_too_many_lie_on_one_another_and_not_where_they_lie_apart() -> None:
+    work.foretell_union([discs(30_000, 40_000.0)])
+    with pytest.raises(TooLargeError):
+        work.foretell_union([discs(30_000, 1.0)])
+
+
+def test_what_is_foretold_is_not_spent(monkeypatch: pytest.MonkeyPatch) -> None:
+    shapes = discs(400, 100.0)
+    monkeypatch.setattr(work, "LIMIT", 2.0 * shapely.get_num_coordinates(shapes).sum())
+    with work.account():
+        for _ in range(5):
+            work.foretell_union([shapes])
+
+
+def test_a_union_costs_the_crossings_that_it_leaves(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(work, "SMALL", 500)
+    shapes = strips(100)
+    made = np.array([shapely.union_all(shapes)])
+    vertices, left = (int(shapely.get_num_coordinates(each).sum()) for each in (shapes, made))
+    monkeypatch.setattr(work, "LIMIT", vertices + work.PER_CROSSING * (left - vertices) * 0.9)
+    work.spend_on_union(shapes, shapes)
+    with pytest.raises(TooLargeError):
+        work.spend_on_union(shapes, made)
+
+
+@pytest.mark.parametrize("sizes", [[], [5], [3, 4, 5, 1], [20, 1, 1, 30], [1] * 25])
+def test_batches_are_all_rows_in_order_and_hold_no_more_than_they_may(sizes: list[int]) -> None:
+    rows = np.array(sizes, np.int64)
+    found = [rows[each] for each in work.batches(rows, 10)]
+    assert [size for each in found for size in each.tolist()] == sizes
+    assert all(each.sum() <= 10 or len(each) == 1 for each in found)

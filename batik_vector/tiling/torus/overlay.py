@@ -10,6 +10,7 @@ Coordinates are whole grid steps.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 
 import numpy as np
@@ -26,6 +27,12 @@ MANY = 20_000
 """Vertices past which a union is not made once more on the grid, for which GEOS may take minutes, but rounded
 there as a whole."""
 
+STEPWISE = 100_000
+"""Vertices of a group past which it is united step by step: crossings may be many times as many."""
+
+MUCH = 2_000_000
+"""Vertices of marks and of what is taken away from them that are overlaid at one go."""
+
 Again = Callable[[NDArray[np.intp]], shapely.Geometry | Geometries]
 """Makes the results of some rows again, on the grid."""
 
@@ -36,16 +43,25 @@ def united(groups: Sequence[Geometries]) -> Geometries:
     Raises:
         TooLargeError: where they are too large, or cross too often.
     """
-    work.spend_on_shapes(groups)
+    work.foretell_union(groups)
     joined = np.empty(len(groups), dtype=object)
     sizes = np.array([len(group) for group in groups], np.intp)
+    all_areas = np.concatenate([np.empty(0, dtype=object), *groups])
+    ends = np.cumsum(shapely.get_num_coordinates(all_areas))[np.cumsum(sizes) - 1]
+    vertices = np.diff(ends, prepend=0)
+    for row in np.flatnonzero(vertices > STEPWISE).tolist():
+        joined[row] = _by_pairs(groups[row])
     # Groups of about one size are united in one call: a row may end in nothing.
-    for power in sorted(set(_powers(sizes).tolist())):
-        rows = np.flatnonzero(_powers(sizes) == power)
-        table = np.full((len(rows), 2**power), None, dtype=object)
-        for row, group in zip(table, rows.tolist(), strict=True):
-            row[: sizes[group]] = groups[group]
-        joined[rows] = shapely.union_all(table, axis=1)
+    powers = np.where(vertices > STEPWISE, -1, _powers(sizes))
+    for power in sorted(set(powers.tolist()) - {-1}):
+        rows = np.flatnonzero(powers == power)
+        for batch in work.batches(vertices[rows]):
+            part = rows[batch]
+            table = np.full((len(part), 2**power), None, dtype=object)
+            for row, group in zip(table, part.tolist(), strict=True):
+                row[: sizes[group]] = groups[group]
+            joined[part] = shapely.union_all(table, axis=1)
+            work.spend_on_union(np.concatenate([groups[row] for row in part.tolist()]), joined[part])
 
     whole = _without_specks(joined)
 
@@ -55,9 +71,35 @@ def united(groups: Sequence[Geometries]) -> Geometries:
     return _rounded(whole, again)
 
 
+def _by_pairs(areas: Geometries) -> shapely.Geometry:
+    """Return the union of many areas, neighbours first, two by two: so what it costs is known in time."""
+    areas = areas[_side_by_side(areas)]
+    while len(areas) > 1:
+        pairs = len(areas) // 2
+        first, second = areas[: 2 * pairs : 2], areas[1 : 2 * pairs : 2]
+        joined = []
+        for batch in work.batches(shapely.get_num_coordinates(first) + shapely.get_num_coordinates(second)):
+            joined.append(np.asarray(shapely.union(first[batch], second[batch]), dtype=object))
+            work.spend_on_union(np.concatenate([first[batch], second[batch]]), joined[-1])
+        areas = np.concatenate([*joined, areas[2 * pairs :]])
+    whole: shapely.Geometry = areas[0]
+    return whole
+
+
+def _side_by_side(areas: Geometries) -> NDArray[np.intp]:
+    """Return areas in an order in which neighbours follow one another: strips, and in each from below."""
+    left, bottom, right, top = shapely.bounds(areas).T
+    strip = np.empty(len(areas), np.intp)
+    across = math.ceil(math.sqrt(len(areas)))
+    strip[np.argsort(left + right, kind="stable")] = np.arange(len(areas)) // across
+    return np.lexsort([bottom + top, strip])
+
+
 def _united_on_grid(areas: Geometries, union: shapely.Geometry) -> shapely.Geometry:
     """Return the union of areas on the grid, given the one that lies between its points."""
-    if shapely.get_num_coordinates(areas).sum() > MANY:
+    many = max(int(shapely.get_num_coordinates(areas).sum()), int(shapely.get_num_coordinates(union)))
+    work.spend(many, per_vertex=work.PER_ROUNDED_VERTEX if many > MANY else work.PER_MENDED_VERTEX)
+    if many > MANY:
         return shapely.set_precision(union, 1.0)
     return shapely.union_all(areas, grid_size=1.0)
 
@@ -68,13 +110,27 @@ def _powers(sizes: NDArray[np.intp]) -> NDArray[np.intp]:
 
 
 def less(marks: Geometries, away: Geometries) -> Geometries:
-    """Return each mark without the area that stands in the same row."""
-    left = np.asarray(shapely.difference(marks, away), dtype=object)
-    return _rounded(left, lambda rows: shapely.difference(marks[rows], away[rows], grid_size=1.0))
+    """Return each mark without the area that stands in the same row.
+
+    Raises:
+        TooLargeError: where they are too large, or cross too often.
+    """
+    left = np.empty(len(marks), dtype=object)
+    for batch in work.batches(shapely.get_num_coordinates(marks) + shapely.get_num_coordinates(away), MUCH):
+        left[batch] = shapely.difference(marks[batch], away[batch])
+        work.spend_on_cuts(marks[batch], away[batch], left[batch])
+    return _rounded(left, lambda rows: _less_on_grid(marks[rows], away[rows]))
+
+
+def _less_on_grid(marks: Geometries, away: Geometries) -> Geometries:
+    work.spend(float(shapely.get_num_coordinates(marks).sum()), per_vertex=work.PER_MENDED_VERTEX)
+    work.spend(float(shapely.get_num_coordinates(away).sum()))
+    return np.asarray(shapely.difference(marks, away, grid_size=1.0), dtype=object)
 
 
 def within(areas: Geometries, window: shapely.Polygon) -> Geometries:
     """Return what of each area lies in a window."""
+    work.spend(float(shapely.get_num_coordinates(areas).sum()), per_vertex=work.PER_CUTTER_VERTEX)
     inside = np.asarray(shapely.intersection(areas, window), dtype=object)
     return _rounded(inside, lambda rows: shapely.intersection(areas[rows], window, grid_size=1.0))
 
@@ -106,6 +162,7 @@ def _best(marks: Geometries, finish: Callable[[shapely.Geometry], shapely.Geomet
     """
     found = np.empty(len(marks), dtype=object)
     for number, (mark, area) in enumerate(zip(marks, shapely.area(marks), strict=True)):
+        work.spend(int(shapely.get_num_coordinates(mark)), per_vertex=work.PER_MENDED_VERTEX)
         ways = [each for make in (_by_lines, _by_structure) for each in _made(mark, make, finish)]
         found[number] = min(ways, key=lambda way: abs(shapely.area(way) - area), default=shapely.Polygon())
     return found

@@ -28,7 +28,7 @@ Lattice = tuple[tuple[int, int], tuple[int, int]]
 """Two translations in grid steps; the first or the second is parallel to its axis."""
 
 
-MAX_WRAPPED = 50_000_000
+MAX_WRAPPED = 15_000_000
 """Vertices that the translates of marks may come to: they are in memory all at once, some 100 bytes each."""
 
 

@@ -17,6 +17,8 @@ import numpy as np
 import shapely
 
 from batik_vector.artwork import Geometries
+from batik_vector.errors import TooLargeError
+from batik_vector.geometry import work
 from batik_vector.geometry.sampling import Array, Indices
 from batik_vector.tiling.tossing.marks import Complexes, Field, Poses
 from batik_vector.tiling.tossing.scatter import Scatter
@@ -131,6 +133,9 @@ def thrown(
 
     Returns:
         How many darts were thrown.
+
+    Raises:
+        TooLargeError: where they are more than one compilation may throw.
     """
     scatter.set(scatter.poses, scatter.field, spacing.kin)
     want = wanted(scatter.poses)
@@ -142,6 +147,7 @@ def thrown(
     missed = total = 0
     while missed < tries and room.free.any() and (want > 0).any():
         batch = _batch(len(scatter), want)
+        _spend(batch, scatter, tries, total)
         darts = _drawn(scatter, rules, dice, room, _shares(scatter, rules, want), batch)
         marks = scatter.marks(darts)
         fit = np.flatnonzero(scatter.clear(marks, spacing.distance, spacing.kin))
@@ -160,6 +166,18 @@ def thrown(
             _give_away(room, scatter.torus.images(more, scatter.largest + spacing.kin), spacing, kinds)
             want = wanted(scatter.poses)
     return total
+
+
+def _spend(batch: int, scatter: Scatter, tries: int, thrown: int) -> None:
+    images = len(scatter.torus.operations)
+    try:
+        work.spend_on_darts(batch * images)
+    except TooLargeError:
+        times = f" of {images} images each" if images > 1 else ""
+        raise TooLargeError(
+            f"tries = {tries:,}: after {thrown:,} darts{times} there are {len(scatter):,} marks and still "
+            "room for chance, which is more work than fits: expected fewer tries, or a count"
+        ) from None
 
 
 def _batch(there: int, want: Array) -> int:

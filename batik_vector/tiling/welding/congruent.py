@@ -280,11 +280,21 @@ class Stock:
         tree, asked = shapely.STRtree(_diagonals(self.bounds(b))), _diagonals(self.bounds(a))
         work.refuse_pairs(tree, asked)
         mine, other = tree.query(asked)
+        work.spend_on_pairs(len(mine))
         return mine, other
 
     def holds(self, predicate: Predicate, a: Copies, b: Copies) -> NDArray[np.bool_]:
-        """Return whether a predicate holds of a[i] and b[i]: asked once for each configuration."""
+        """Return whether a predicate holds of a[i] and b[i]: asked once for each configuration.
+
+        Raises:
+            TooLargeError: where there are too many to ask.
+        """
         heads, number = alike(np.column_stack([a.kind, b.kind, b.shift - a.shift]))
+        if predicate is shapely.intersects:
+            work.spend_on_asking(self.shapes, b.kind[heads])
+        else:
+            kinds = np.concatenate([a.kind[heads], b.kind[heads]])
+            work.spend_on_asking(self.shapes, kinds, work.PER_RELATED_VERTEX)
         first, second = self._each(a.taken(heads)), self._each(b.taken(heads))
         shapely.prepare(first)
         return np.asarray(predicate(first, second)[number])

@@ -30,6 +30,7 @@ def grown(marks: Geometries, reach: float, tolerance: float) -> Geometries:
     if not len(marks):
         return marks
     work.spend_on_lines(marks, each=True)
+    work.spend(float(shapely.get_num_coordinates(marks).sum()), per_vertex=work.PER_GROWN_VERTEX)
     return np.asarray(shapely.buffer(marks, reach, quad_segs=quad_segs(reach, tolerance)), dtype=object)
 
 
@@ -40,9 +41,13 @@ def grown_on_grid(shapes: Geometries, reach: float, corners: int = PLAIN_CORNERS
         shapes: polygons.
         reach: in mm.
         corners: chords in a quarter circle.
+
+    Raises:
+        TooLargeError: where they have too many vertices.
     """
     if not reach:
         return shapes
+    work.spend(float(shapely.get_num_coordinates(shapes).sum()), per_vertex=work.PER_GROWN_VERTEX)
     return overlay.on_grid(
         np.asarray(shapely.buffer(shapes, reach * STEPS_PER_MM, quad_segs=corners), dtype=object)
     )

@@ -12,6 +12,7 @@ import shapely
 
 from batik_vector.artwork import Cell, DropAxis, Geometries
 from batik_vector.errors import GeometryError, TooLargeError
+from batik_vector.geometry import work
 from batik_vector.geometry.maps.affine import Affine
 from batik_vector.tiling.layouts import Toss
 from batik_vector.tiling.tossing.marks import Field
@@ -274,3 +275,10 @@ def test_specs_that_make_no_sense_are_refused(spec: dict[str, object], words: st
 def test_weights_are_one_for_each_motif() -> None:
     with pytest.raises(GeometryError, match=r"weights = \[1, 2, 3\]: expected one for each motif, 2 in all"):
         toss(Toss(weights=(1, 2, 3)), marks(BEAN, DOT), torus(), NOTHING, 1)
+
+
+def test_tries_that_never_end_are_refused_with_their_number(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(work, "LIMIT", work.PER_DART * 2000)
+    spec = Toss(distance=1.0, tries=100_000)
+    with pytest.raises(TooLargeError, match=r"tries = 100,000: after [\d,]+ darts"), work.account():
+        toss(spec, marks(BEAN), torus(), NOTHING, 1)
