@@ -10,6 +10,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 
+from benchmarks.drawing import TIMES, size
 from benchmarks.timing import OWN, PEERS
 
 FOUR_SQUARE = "samples/four-square.toml"
@@ -300,6 +301,32 @@ def cloth(plan: Plan) -> list[Contest]:
     return [Contest("cloth", tuple(entrants), plan.rounds)]
 
 
+VPYPE_RINGS = 10
+"""Marks of the drawing that vpype sets out: it reads the file again for every copy, 100 times."""
+
+
+def motif(plan: Plan) -> list[Contest]:
+    """A drawing of one's own: read, and set out in a grid."""
+    rings = str(plan.few)
+    compile_ = (str(OWN / "batik-vector"), "compile", "{folder}/curves.toml", "-o", "{folder}/out")
+    mine = Entrant(BATIK, "`batik-vector compile`", compile_, drawn=("out/curves.svg",))
+    width, height = (f"{side / TIMES}mm" for side in size(VPYPE_RINGS))
+    grid = ("begin", "grid", "-o", width, height, str(TIMES), str(TIMES))
+    read = ("read", "-q", "0.2mm", "{folder}/curves.svg", "scale", str(1 / TIMES), str(1 / TIMES), "end")
+    theirs = (str(PEERS / "vpype"), *grid, *read, "write", "{folder}/vpype.svg")
+    peers = (str(PEERS / "python"), "-m", "benchmarks.peers.svgelements_read", rings, "{folder}")
+    readers = (
+        Entrant(BATIK, "batik_vector, `Svg.read`", own("own", "read", rings, "{folder}"), True),
+        Entrant("svgelements", "svgelements, `SVG.parse`", peers, True),
+    )
+    vpype = Entrant("vpype", "`vpype begin grid … read … end write`", theirs, drawn=("vpype.svg",))
+    return [
+        Contest("drawing read", readers, plan.rounds, plan.few),
+        Contest("drawing in a grid", (mine,), plan.rounds, plan.few),
+        Contest("small drawing in a grid", (mine, vpype), plan.rounds, VPYPE_RINGS),
+    ]
+
+
 def facts(section: str, plan: Plan) -> list[Fact]:
     """Return what is to be found out about the files of a section."""
     if section == "pdf":
@@ -332,6 +359,7 @@ SECTIONS: Mapping[str, Callable[[Plan], list[Contest]]] = MappingProxyType(
         "slider": slider,
         "levels": levels,
         "cloth": cloth,
+        "motif": motif,
     }
 )
 """The sections by name, in the order in which they run."""

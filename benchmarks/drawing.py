@@ -75,6 +75,33 @@ size = ["{width} mm", "{height} mm"]
 """
 
 
+MOTIF = """\
+title = "A drawing of {segments:,} segments"
+tolerance = "0.02 mm"
+limit = 50_000_000
+
+[motif.drawing]
+kind = "svg"
+file = "curves.svg"
+
+[ink.wax]
+colour = "#1a1a1a"
+
+[[place]]
+motif = "drawing"
+scale = "{scale} mm"
+
+[tile]
+size = ["{width} mm", "{height} mm"]
+
+[[output]]
+format = "svg"
+repeat = [{times}, {times}]
+"""
+TIMES = 10
+"""How often the drawing is repeated across and up, each time a tenth as large."""
+
+
 def grid(rings: int) -> tuple[int, int]:
     """Return columns and rows, as nearly square as their product allows, rows even if possible."""
     known = [k for k in range(1, int(rings**0.5) + 1) if rings % k == 0]
@@ -127,3 +154,34 @@ def evaluated(rings: int) -> NDArray[np.float64]:
     y = (np.arange(rows) + 0.5) * PITCH_MM
     places = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
     return places[:, None, :] + mark
+
+
+def curves_svg(rings: int) -> str:
+    """Return the drawing as an SVG of cubic Béziers, 100 to a mark, that keep the curve's tangents."""
+    import numpy as np
+
+    width, height = size(rings)
+    angle = 2 * np.pi * np.arange(RING + 1) / RING
+    radius, steeper = 1 + WAVE * np.cos(LOBES * angle), -LOBES * WAVE * np.sin(LOBES * angle)
+    cos, sin = np.cos(angle), np.sin(angle)
+    mark = SCALE_MM * np.column_stack([radius * cos, radius * sin])
+    handle = SCALE_MM * np.column_stack([steeper * cos - radius * sin, steeper * sin + radius * cos])
+    handle *= 2 * np.pi / RING / 3
+    control = np.stack([mark[:-1] + handle[:-1], mark[1:] - handle[1:], mark[1:]], axis=1).reshape(-1, 2)
+    columns, rows = grid(rings)
+    paths = []
+    for row in range(rows):
+        for column in range(columns):
+            middle = (np.array([column, row]) + 0.5) * PITCH_MM
+            numbers = (np.vstack([mark[:1], control]) + middle).round(4).ravel().tolist()
+            paths.append('<path d="M{} {}C{}Z"/>'.format(*numbers[:2], " ".join(map(str, numbers[2:]))))
+    frame = f'width="{width}mm" height="{height}mm" viewBox="0 0 {width} {height}"'
+    return f'<svg xmlns="http://www.w3.org/2000/svg" {frame}>{"".join(paths)}</svg>'
+
+
+def curves_recipe(rings: int) -> str:
+    """Return a recipe with that SVG, ``curves.svg`` beside it, as its motif."""
+    width, height = size(rings)
+    return MOTIF.format(
+        segments=rings * RING, scale=1 / TIMES, width=width / TIMES, height=height / TIMES, times=TIMES
+    )

@@ -2,6 +2,7 @@
 
 python -m benchmarks.own prepare RINGS FOLDER      the drawing as coordinates and SVG, for the peers
 python -m benchmarks.own write RINGS FOLDER svg    a writer alone
+python -m benchmarks.own read RINGS FOLDER         an SVG of curves, read
 """
 
 from __future__ import annotations
@@ -16,8 +17,9 @@ import shapely
 from batik_vector.artwork import Artwork
 from batik_vector.compiling.compiler import compile_recipe
 from batik_vector.export import write_artwork
+from batik_vector.recipe.drawing import Svg
 from batik_vector.recipe.loading import read_recipe
-from benchmarks.drawing import RING, recipe
+from benchmarks.drawing import RING, curves_recipe, curves_svg, recipe
 from benchmarks.peers.drawn import WARM, let_go, tell, timed
 
 
@@ -36,6 +38,9 @@ def prepare(rings: int, folder: Path) -> None:
     np.save(folder / "drawing.npy", points[:, :-1])
     write_artwork(artwork, folder / "drawing.svg")
     write_artwork(compiled(WARM), folder / "warm.svg")
+    (folder / "curves.svg").write_text(curves_svg(rings), encoding="utf-8")
+    (folder / "curves.toml").write_text(curves_recipe(rings), encoding="utf-8")
+    (folder / "warm-curves.svg").write_text(curves_svg(WARM), encoding="utf-8")
 
 
 def write(rings: int, folder: Path, format_: str) -> None:
@@ -47,8 +52,18 @@ def write(rings: int, folder: Path, format_: str) -> None:
     tell({"": part})
 
 
+def read(folder: Path) -> None:
+    """Time the reading of an SVG of curves to marks, once warm."""
+    Svg.read(folder / "warm-curves.svg")
+    let_go()
+    part, _ = timed(partial(Svg.read, folder / "curves.svg"))
+    tell({"": part})
+
+
 if __name__ == "__main__":
     if sys.argv[1] == "prepare":
         prepare(int(sys.argv[2]), Path(sys.argv[3]))
+    elif sys.argv[1] == "read":
+        read(Path(sys.argv[3]))
     else:
         write(int(sys.argv[2]), Path(sys.argv[3]), sys.argv[4])

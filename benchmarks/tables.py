@@ -26,6 +26,7 @@ TITLES: Mapping[str, str] = MappingProxyType(
         "slider": "A slider's step",
         "levels": "Levels of a layout",
         "cloth": "Metres of cloth",
+        "motif": "A drawing of one's own",
     }
 )
 
@@ -245,6 +246,21 @@ def cloth(contests: Sequence[Contest], results: Results) -> Iterator[str]:
         yield ""
 
 
+def motif(contests: Sequence[Contest], results: Results) -> Iterator[str]:
+    """Yield what reading a drawing costs, and a grid of it."""
+    for contest in contests:
+        body = []
+        for entrant in contest.entrants:
+            name = f"{contest.name}/{entrant.name}"
+            ratio = results.ratio(name, f"{contest.name}/{BATIK}")
+            shown = results.missing.get(name) or cost(results, name)
+            size = median(results, name, "bytes", lambda size: f"{size:,.0f}" if size else NONE)
+            body.append((entrant.says, shown, NONE if ratio is None else times(ratio), size))
+        segments = f"{contest.name}, {contest.rings * RING:,} segments"
+        yield from table((segments, "CPU", "ratio of CPU", "bytes"), body)
+        yield ""
+
+
 SHOWN: Mapping[str, Callable[[Sequence[Contest], Results], Iterator[str]]] = MappingProxyType(
     {
         **dict.fromkeys(("svg", "pdf", "dxf", "three"), races),
@@ -255,6 +271,7 @@ SHOWN: Mapping[str, Callable[[Sequence[Contest], Results], Iterator[str]]] = Map
         "slider": slider,
         "levels": levels,
         "cloth": cloth,
+        "motif": motif,
     }
 )
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import functools
 import re
 from collections.abc import Iterator
-from itertools import pairwise
 
 import numpy as np
 
@@ -16,9 +15,8 @@ from batik_vector.geometry.paths.outline import Outline
 from batik_vector.geometry.paths.pen import Command, drawn
 from batik_vector.patterns import NUMBER, numbers_in
 
-_COMMAND = re.compile(r"([MmZzLlHhVvCcSsQqTtAa])([^MmZzLlHhVvCcSsQqTtAa]*)")
-_TOKEN = re.compile(rf"{NUMBER}|[^\s,]")
-_LETTERS = frozenset("MmZzLlHhVvCcSsQqTt")
+_LETTER = re.compile("([MmZzLlHhVvCcSsQqTtAa])")
+_PLAIN = re.compile(r"[-+.,eE0-9 \t\r\n]*+")
 _ARC = re.compile(
     r"[\s,]*+({0})[\s,]*+({0})[\s,]*+({0})[\s,]*+([01])[\s,]*+([01])[\s,]*+({0})[\s,]*+({0})".replace(
         "{0}", NUMBER
@@ -34,8 +32,7 @@ def parse_path(text: str) -> Outline:
     Raises:
         ValueError: where the data break off or are none.
     """
-    commands = commands_of(text) or _tokens(text)
-    return drawn(_commands(text) if commands is None else commands)
+    return drawn(commands_of(text) or _commands(text))
 
 
 FARTHEST = 1e6
@@ -67,44 +64,23 @@ def path_of(text: str, upward: bool = False, centre: tuple[float, float] = (0.0,
     return outline.moved((1.0, 0.0, 0.0, flip, -centre[0], -flip * centre[1]))
 
 
-def _tokens(text: str) -> list[Command] | None:
-    """Return the commands of sound path data without arcs, read at once; None of any other."""
-    if "a" in text or "A" in text:
-        return None
-    tokens = _TOKEN.findall(text)
-    places = [place for place, token in enumerate(tokens) if token in _LETTERS]
-    if not places or places[0] != 0:
-        return None
-    places.append(len(tokens))
-    commands, last = list[Command](), ""
-    try:
-        for place, after in pairwise(places):
-            letter = tokens[place]
-            takes, count = _TAKES[letter], after - place - 1
-            if count % takes or not count if takes else count:
-                return None
-            numbers = list(map(float, tokens[place + 1 : after]))
-            # One letter again and again, as some programs write it, is one command with many numbers.
-            if letter == last and letter not in "MmZz":
-                commands[-1][1].extend(numbers)
-            else:
-                commands.append((letter, numbers))
-            last = letter
-    except ValueError:
-        return None
-    return commands
-
-
 def _commands(text: str) -> Iterator[Command]:
     """Yield the commands of path data, and fail where they break off."""
-    at = 0
-    for match in _COMMAND.finditer(text):
-        if text[at : match.start()].strip():
-            break
-        at = match.end()
-        yield match[1], _numbers(match[1], match[2])
-    if text[at:].strip():
-        raise ValueError(f'path data "…{text[at : at + 40].strip()}" cannot be read')
+    begin, *parts = _LETTER.split(text)
+    if begin.strip():
+        raise ValueError(f'path data "…{begin.strip()[:40]}" cannot be read')
+    last, run = "", list[float]()
+    for letter, chunk in zip(parts[::2], parts[1::2], strict=True):
+        numbers = _numbers(letter, chunk)
+        # One letter again and again, as some programs write it, is one command with many numbers.
+        if letter == last and letter not in "MmZz":
+            run += numbers
+            continue
+        if last:
+            yield last, run
+        last, run = letter, numbers
+    if last:
+        yield last, run
 
 
 def _numbers(letter: str, text: str) -> list[float]:
@@ -115,7 +91,7 @@ def _numbers(letter: str, text: str) -> list[float]:
             at = match.end()
         read = None if text[at:].strip(" \t\r\n,") else found
     else:
-        read = numbers_in(text)
+        read = _plain(text) or numbers_in(text)
     if read is None:
         raise ValueError(f'path data "{letter}{text[:40]}" cannot be read')
     takes = _TAKES[letter]
@@ -124,3 +100,13 @@ def _numbers(letter: str, text: str) -> list[float]:
         count = f"{len(read)} number{'' if len(read) == 1 else 's'}"
         raise ValueError(f'path command "{letter}" has {count}, expected {some}')
     return read
+
+
+def _plain(text: str) -> list[float] | None:
+    """Return numbers between which something stands, as most programs write them, or None."""
+    if _PLAIN.fullmatch(text) is None:
+        return None
+    try:
+        return list(map(float, text.replace(",", " ").replace("-", " -").split()))
+    except ValueError:
+        return None
