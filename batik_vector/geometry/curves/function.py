@@ -48,7 +48,11 @@ class Called:
                 return bulk
         except (TypeError, ValueError):  # math's functions take no arrays, nor does an if
             pass
-        if single._tried().shape != (len(PROBE), 2):
+        try:
+            shape = single._tried().shape
+        except TypeError as error:
+            raise GeometryError(f"the function of t cannot be called with a number: {error}") from error
+        if shape != (len(PROBE), 2):
             raise GeometryError("the function of t gives no points, expected x and y, or a complex number")
         return single
 

@@ -65,7 +65,7 @@ def _finite(given: Any) -> Points:
     """Return points that are right as an array."""
     try:
         points = np.asarray(given, float)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise GeometryError(f"points = {shown(given)}, expected a list of pairs of numbers") from None
     if not points.size:
         points = points.reshape(0, 2)
