@@ -11,6 +11,7 @@ import numpy as np
 from batik_vector.geometry.paths.matrix import Matrix, times
 from batik_vector.geometry.paths.outline import EMPTY, Outline, bounds_of, joined
 from batik_vector.importing.document import Document, children, local, reference
+from batik_vector.importing.elements import REFUSED
 from batik_vector.importing.origins import transform_of
 from batik_vector.importing.page import Box, parse_px
 from batik_vector.importing.paint import EXPAND, url_of
@@ -22,7 +23,8 @@ MAX_REACH_MM = 1e6
 """How far from the page a shape may reach; further off, products of whole µm leave 64 bits."""
 
 
-TEXT = "text hangs on a font; convert it to outlines first (Inkscape: Path → Object to Path)"
+FRAME_SLACK = 1e-3
+"""Parts of a side by which a clip may fall short of what it holds and still cut nothing away."""
 
 
 @frozen(eq=False)
@@ -118,7 +120,7 @@ class ClipPaths:
         if style.get("display") == "none" or kind not in (*SHAPES, "use", "text"):
             return
         if kind == "text":
-            self.document.refuse(element, TEXT)
+            self.document.refuse(element, REFUSED["text"])
             return
         matrix = times(space.matrix, self._transform(element, style, space.size))
         if kind == "use":
@@ -168,3 +170,14 @@ def box_of(outlines: list[Outline]) -> Box | None:
         return None
     x, y, right, low = bounds_of(outline)
     return (x, y, right - x, low - y) if right > x and low > y else None
+
+
+def covers(outline: Outline, width: float, height: float) -> bool:
+    """Whether an outline is an upright rectangle that holds the page."""
+    points = outline.points
+    low, high = points.min(axis=0), points.max(axis=0)
+    slack = FRAME_SLACK * max(width, height)
+    upright = (np.isclose(points, low, atol=1e-6) | np.isclose(points, high, atol=1e-6)).all()
+    corners = len(np.unique(np.round(points, 6), axis=0)) == 4
+    holds = (low <= slack).all() and (high >= np.array([width, height]) - slack).all()
+    return bool(upright and corners and holds)

@@ -15,7 +15,7 @@ import numpy as np
 
 from batik_vector.geometry.paths.matrix import IDENTITY, Matrix, spread, times
 from batik_vector.geometry.paths.outline import Outline, box
-from batik_vector.importing.clip_paths import MAX_REACH_MM, TEXT, Clip, ClipPaths, Part, Space, box_of
+from batik_vector.importing.clip_paths import MAX_REACH_MM, Clip, ClipPaths, Part, Space, box_of, covers
 from batik_vector.importing.document import (
     MAX_DEPTH,
     SWITCHES,
@@ -24,6 +24,7 @@ from batik_vector.importing.document import (
     local,
     reference,
 )
+from batik_vector.importing.elements import PASSED, REFUSED
 from batik_vector.importing.layer_names import layer_of
 from batik_vector.importing.origins import transform_of
 from batik_vector.importing.page import Box, Page, fitted, parse_px, view_box
@@ -40,22 +41,12 @@ MAX_POINTS = 20_000_000
 """Shapes and points a drawing may have once every ``use`` in it is followed."""
 MAX_WORK = 1_000_000
 """Elements to which ``use`` may lead, painted or not, long attributes counted as several."""
-FRAME_SLACK = 1e-3
-"""Parts of a side by which a clip may fall short of what it holds and still cut nothing away."""
 
 _FOLLOWED = "once every use in it is followed"
 DASHED = "dashed lines are taken as whole ones, but at the seam"
 LOPSIDED = "lines under a lopsided transform have their mean breadth"
 TILE_NOTES = frozenset((DASHED, LOPSIDED, SOLID, FIRST_COLOUR))
 """What is told of tiles alone: who draws every mark for itself draws these as they are, or refuses them."""
-_REFUSED = {
-    "image": "a picture has no outlines; trace it (Inkscape: Path → Trace Bitmap), or take it out",
-    "text": TEXT,
-    "foreignObject": "foreign content cannot be read as geometry",
-    "video": "is no geometry",
-    "canvas": "is no geometry",
-    "iframe": "is no geometry",
-}
 
 
 class Walker:
@@ -101,9 +92,9 @@ class Walker:
         style = self._styles.of(element, here.style)
         if not self._painted(element, style):
             return
-        if kind in _REFUSED:
+        if kind in REFUSED:
             if style["visibility"] == "visible" and (kind != "text" or "".join(element.itertext()).strip()):
-                self.document.refuse(element, _REFUSED[kind])
+                self.document.refuse(element, REFUSED[kind])
             return
         self._refuse_styled_geometry(element, kind, style)
         matrix = times(here.matrix, self._transform(element, style, here))
@@ -381,7 +372,7 @@ class Walker:
     def _holds_page(self, clip: Clip) -> bool:
         """Whether a clip is a mere frame round the page, as Figma and Illustrator set one about all."""
         plain = len(clip.parts) == 1 and not clip.parts[0].within and clip.parts[0].subpaths == 1
-        return plain and _covers(clip.outline, self.page.width, self.page.height)
+        return plain and covers(clip.outline, self.page.width, self.page.height)
 
     def _box(self, element: ET.Element, here: Here) -> Box | None:
         """Return the box of what an element draws, painted or not, in its own units."""
@@ -398,26 +389,6 @@ def _opacity(style: Style) -> float:
     return share_of(style.get("opacity", "1"))
 
 
-_SILENT = """
-defs symbol clipPath mask pattern linearGradient radialGradient meshgradient hatch solidcolor filter marker
-style script title desc metadata view cursor font font-face glyph animate animateTransform animateMotion
-animateColor set color-profile
-"""
-PASSED = frozenset(_SILENT.split())
-"""Elements that paint nothing where they stand."""
-
-
 def _px(text: str | None, default: float, whole: float) -> float:
     value = parse_px(text, whole)
     return default if value is None else value
-
-
-def _covers(outline: Outline, width: float, height: float) -> bool:
-    """Whether an outline is an upright rectangle that holds the page."""
-    points = outline.points
-    low, high = points.min(axis=0), points.max(axis=0)
-    slack = FRAME_SLACK * max(width, height)
-    upright = (np.isclose(points, low, atol=1e-6) | np.isclose(points, high, atol=1e-6)).all()
-    corners = len(np.unique(np.round(points, 6), axis=0)) == 4
-    holds = (low <= slack).all() and (high >= np.array([width, height]) - slack).all()
-    return bool(upright and corners and holds)

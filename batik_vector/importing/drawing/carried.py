@@ -10,7 +10,7 @@ import xml.etree.ElementTree as ET
 from collections.abc import Container, Iterator
 
 from batik_vector.importing.document import INKSCAPE, SERIF, SVG, XLINK, Document, local
-from batik_vector.importing.walk import PASSED
+from batik_vector.importing.elements import PASSED
 
 _PREFIXES = {XLINK: "xlink", INKSCAPE: "inkscape", SERIF: "serif"}
 _KEPT = frozenset(

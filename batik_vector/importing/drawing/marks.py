@@ -17,7 +17,7 @@ import shapely
 from batik_vector.errors import Fault, RecipeError
 from batik_vector.geometry.paths.matrix import Matrix
 from batik_vector.geometry.paths.outline import CONTROL, Outline, bounds_of, joined
-from batik_vector.importing.clip_paths import Clip
+from batik_vector.importing.clip_paths import FRAME_SLACK, Clip
 from batik_vector.importing.document import Document, DrawingError, named
 from batik_vector.importing.drawing.names import Called, Named, called, own_name, refuse_too_many
 from batik_vector.importing.gradients import Gradient
@@ -27,7 +27,7 @@ from batik_vector.importing.painting import Paint
 from batik_vector.importing.pens import Pen
 from batik_vector.importing.scene import Shape
 from batik_vector.importing.transforms import PX_PER_INCH
-from batik_vector.importing.walk import FRAME_SLACK, TILE_NOTES, Walker
+from batik_vector.importing.walk import TILE_NOTES, Walker
 from batik_vector.values import frozen
 
 DRAWN, PAGE = "drawn", "page"

@@ -12,8 +12,8 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from batik_vector.errors import Fault, RecipeError, nearest, shortened
 from batik_vector.importing.document import INKSCAPE, MAX_DEPTH, SERIF, Document, children, local, reference
+from batik_vector.importing.elements import PASSED
 from batik_vector.importing.layer_names import decoded, layer_of
-from batik_vector.importing.walk import PASSED
 from batik_vector.values import frozen
 
 MOST_NAMES = 12
