@@ -66,9 +66,11 @@ def apart(one: Artwork, other: Artwork) -> float:
     for mine, theirs in zip(one.layers, other.layers, strict=True):
         a, b = shapely.union_all(mine.areas), shapely.union_all(theirs.areas)
         worst = max(worst, shapely.symmetric_difference(a, b).area / (shapely.length(a) or 1.0))
-        c, d = shapely.union_all(mine.lines), shapely.union_all(theirs.lines)
-        if len(mine.lines):
-            worst = max(worst, shapely.hausdorff_distance(c, d))
+        for one_way in ((mine.lines, theirs.lines), (theirs.lines, mine.lines)):
+            places = shapely.points(shapely.get_coordinates(one_way[0]))
+            # Where a line is cut aslant its end lies further off.
+            if len(one_way[0]):
+                worst = max(worst, float(shapely.distance(places, shapely.union_all(one_way[1])).mean()))
     return worst
 
 
