@@ -76,7 +76,8 @@ def covered(shape: shapely.Geometry, on_cloth: Affine, recipe: Recipe, artwork: 
     shifts = [Affine.translation(one * i + other * j) for i in range(-7, 8) for j in range(-7, 8)]
     images = [shift @ operation @ on_cloth for operation in orbit.operations for shift in shifts]
     found = Affines.of(images).apply(shapely.get_parts(shape))
-    return shapely.intersection(shapely.union_all(found[shapely.intersects(found, cell)]), cell)
+    near = found[shapely.intersects(found, cell)]
+    return shapely.intersection(shapely.union_all(near, grid_size=1e-7), cell, grid_size=1e-7)
 
 
 @long
