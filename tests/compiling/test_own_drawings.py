@@ -177,7 +177,9 @@ def test_the_shortest_recipe_of_ones_own_is_three_lines() -> None:
     (leaf,) = layer.areas
     assert len(leaf.interiors) == 1
     assert leaf.interiors[0].minimum_clearance > 0
-    assert shapely.Polygon(leaf.interiors[0]).area == pytest.approx(math.pi * (4 * 24 / 30) ** 2, rel=5e-3)
+    assert shapely.Polygon(leaf.interiors[0]).area == pytest.approx(
+        math.pi * 3.2**2, abs=2 * math.pi * 3.2 * 0.02
+    )
 
 
 @pytest.mark.parametrize("size", [1e-3, 1.0, 1e3, 2e4])

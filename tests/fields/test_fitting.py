@@ -53,7 +53,7 @@ from batik_vector.recipe.drawing import Svg
 from batik_vector.recipe.figures import draw
 from batik_vector.recipe.motif import MOTIFS, Core, Dress, Leaf, Petals, Pistil, Treatment
 from batik_vector.recipe.outputs import OUTPUTS
-from batik_vector.tiling.layouts import LAYOUTS, Lattice, MapSpec, Ring, Spot, Term
+from batik_vector.tiling.layouts import LAYOUTS, Lattice, MapSpec, Places, Ring, Spot, Term
 from batik_vector.tiling.symmetry.machine_fit import Fit
 
 SQUARE = shapely.box(1, 1, 4, 4)
@@ -117,6 +117,7 @@ BY_HAND: dict[type, dict[str, Any]] = {
     Element: {"curve": Circle()},
     Rosette: {"elements": (Element(curve=Circle()),)},
     Svg: {"file": "bird.svg"},
+    Places: {"at": ((0.0, 0.0),)},
     Placement: {"motif": "m", "width": 40.0},
     TileSpec: {"size": (80.0, 80.0)},
     YardageSpec: {"width": 300.0},

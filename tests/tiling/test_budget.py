@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from batik_vector.artwork import Artwork, Cell, Ink, Layer
 from batik_vector.compiling.compiler import compile_recipe
+from batik_vector.geometry.work import SAMPLED_VERTICES
 from batik_vector.recipe.loading import load_recipe
 from batik_vector.recipe.model import Placement, Recipe
 from batik_vector.recipe.motif import Flower, Motif
@@ -188,7 +189,8 @@ def test_a_deep_level_whose_flowers_overlap_unites_each_of_them_once() -> None:
     assert large.vertex_count > 6 * small.vertex_count
     ratio = deep.given(*UNITED) / first.given(*UNITED)
     BUDGETS.hold("level 4 against 1, overlapping: united", ratio)
-    assert deep.given(*MEETING) == first.given(*MEETING)
+    # Crossings are counted on some pairs before anything is united.
+    assert deep.given(*MEETING) <= first.given(*MEETING) + 2 * SAMPLED_VERTICES
 
 
 @pytest.mark.parametrize("side", [8, 32])

@@ -33,6 +33,9 @@ STEPWISE = 100_000
 MUCH = 2_000_000
 """Vertices of marks and of what is taken away from them that are overlaid at one go."""
 
+Brought = Callable[[NDArray[np.intp] | slice], Geometries]
+"""Brings the geometries of some rows to another place."""
+
 Again = Callable[[NDArray[np.intp]], shapely.Geometry | Geometries]
 """Makes the results of some rows again, on the grid."""
 
@@ -109,17 +112,25 @@ def _powers(sizes: NDArray[np.intp]) -> NDArray[np.intp]:
     return np.asarray(np.ceil(np.log2(np.maximum(sizes, 1))), np.intp)
 
 
-def less(marks: Geometries, away: Geometries) -> Geometries:
+def less(marks: Geometries, away: Geometries, brought: Brought | None = None) -> Geometries:
     """Return each mark without the area that stands in the same row.
+
+    Args:
+        marks, away: as many of each.
+        brought: brings the areas of some rows to where they are taken away, a few at a time since they may
+            be far larger than the marks; left out where they lie there.
 
     Raises:
         TooLargeError: where they are too large, or cross too often.
     """
     left = np.empty(len(marks), dtype=object)
     for batch in work.batches(shapely.get_num_coordinates(marks) + shapely.get_num_coordinates(away), MUCH):
-        left[batch] = shapely.difference(marks[batch], away[batch])
-        work.spend_on_cuts(marks[batch], away[batch], left[batch])
-    return _rounded(left, lambda rows: _less_on_grid(marks[rows], away[rows]))
+        taken = away[batch] if brought is None else brought(batch)
+        left[batch] = shapely.difference(marks[batch], taken)
+        work.spend_on_cuts(marks[batch], taken, left[batch])
+    return _rounded(
+        left, lambda rows: _less_on_grid(marks[rows], away[rows] if brought is None else brought(rows))
+    )
 
 
 def _less_on_grid(marks: Geometries, away: Geometries) -> Geometries:

@@ -38,9 +38,12 @@ def cut(stock: Stock, marks: Laid, cutters: Laid, lattice: Lattice) -> Laid:
     which, away, number, corner = _away(stock, marks, cutters, mark, cutter)
     asked = np.column_stack([marks.copies.kind[which], number, corner - marks.copies.shift[which]])
     heads, row = alike(asked)
-    # The mark is brought to what cuts it, which may be far larger.
-    left = overlay.less(translate(stock.shapes[asked[heads, 0]], -asked[heads, 2:]), away[asked[heads, 1]])
-    down = stock.set_down(left, row, given.copies.shift[which] + asked[:, 2:])
+    taken, there = away[asked[heads, 1]], asked[heads, 2:]
+    # A mark stays where it is: what is cut alike must be rounded alike, in every tile and cloth.
+    left = overlay.less(
+        stock.shapes[asked[heads, 0]], taken, lambda rows: translate(taken[rows], there[rows])
+    )
+    down = stock.set_down(left, row, given.copies.shift[which])
     whole = np.ones(len(marks.sheet), bool)
     whole[which] = False
     order = np.argsort(np.concatenate([np.flatnonzero(whole), which[down.each]]), kind="stable")
