@@ -122,7 +122,8 @@ def test_any_cloth_is_the_field(recipe: Recipe, spec: YardageSpec, piece: int) -
             # Joining may round where areas of one ink cross one another.
             assert apart.area / 1e6 < 1e-3
         else:
-            assert abs(difference(mine, areas)) / 1e6 < 1e-6
+            # Where a seam is gone so is its vertex, if it lies by less than a step beside the edge.
+            assert abs(difference(mine, areas)) / 1e6 < 1e-4
         length = float(shapely.length(lines).sum()) / 1000
         assert float(shapely.length(layer.lines).sum()) == pytest.approx(length, abs=1e-6)
     assert all(len(areas) + len(lines) == 0 for areas, lines in expected.values())
