@@ -148,7 +148,7 @@ def _curve(kind: str) -> Put:
         known = [each for each in _placed(data, "rosette")["elements"] if each["curve"]["kind"] == kind]
         if known:
             return known[0]["curve"]  # type: ignore[no-any-return]
-        start = {
+        start: dict[str, Tables] = {
             "polar": {"waves": [[8, 0.1, 0.0]]},
             "path": {"d": PATH},
             "points": {"points": [[0.0, 0.0], [1.0, 0.0], [0.5, 1.0]]},
