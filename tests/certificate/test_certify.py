@@ -57,18 +57,12 @@ def test_samples_pass(name: str, group: str) -> None:
     assert certificate.worst.identity < 1e-9
 
 
-UNMENDED = ()
-"""What twenty find here is not mended: a turn told of coarse stripes, edges that disagree at a tip."""
-
-
 @long
 @pytest.mark.parametrize("repeat", REPEATS)
 def test_random_recipes_pass(repeat: str) -> None:
     # Others for each repeat, and always the same.
     @seed(REPEATS.index(repeat))
-    @settings(
-        many, derandomize=False, database=None, max_examples=examples(2, 2 if repeat in UNMENDED else 20)
-    )
+    @settings(many, derandomize=False, database=None, max_examples=examples(2, 20))
     @given(recipes(repeat, grounded=True))
     def passes(recipe: Recipe) -> None:
         certificate = certify(compiled(recipe), symmetry=False)

@@ -10,7 +10,6 @@ import numpy as np
 
 from batik_vector.errors import GeometryError
 from batik_vector.fields.fitting import shown
-from batik_vector.geometry.paths.bulk import commands_of
 from batik_vector.geometry.paths.outline import Outline
 from batik_vector.geometry.paths.pen import Command, drawn
 from batik_vector.patterns import NUMBER, numbers_in
@@ -32,7 +31,7 @@ def parse_path(text: str) -> Outline:
     Raises:
         ValueError: where the data break off or are none.
     """
-    return drawn(commands_of(text) or _commands(text))
+    return drawn(_commands(text))
 
 
 FARTHEST = 1e6

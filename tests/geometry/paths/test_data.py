@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from batik_vector.geometry.paths.data import parse_path
+from batik_vector.patterns import numbers_in
 
 numbers = st.integers(-500, 500).map(lambda n: n / 8)
 steps = st.lists(
@@ -57,3 +58,19 @@ def test_no_path_data_is_more_than_refused(text: str) -> None:
     with contextlib.suppress(ValueError):
         outline = parse_path(text)
         assert len(outline.points) == len(outline.kinds)
+
+
+pieces = st.sampled_from(["1", "-2.5", ".5", "1.", "+3", "1e2", "1E-2", "-1.5e+1", "-", "e", "1_0", "inf"])
+
+
+@settings(derandomize=True, max_examples=300, deadline=None)
+@given(st.lists(st.tuples(pieces, st.sampled_from(["", " ", ",", " , ", "\n"])), min_size=1, max_size=6))
+def test_numbers_are_read_as_lists_of_them_are_however_they_are_parted(parts: list[tuple[str, str]]) -> None:
+    text = "".join(map("".join, parts))
+    read = numbers_in(text)
+    path = f"M0 0h{text}"
+    if read:
+        assert parse_path(path).points[1:, 0].tolist() == np.cumsum(read).tolist()
+    else:
+        with pytest.raises(ValueError, match="path"):
+            parse_path(path)
