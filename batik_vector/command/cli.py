@@ -171,7 +171,7 @@ def _limit(name: str, metavar: str, says: str, option: str = "") -> Callable[[An
     return click.option(f"--{option or name}", name, type=click.FloatRange(min=0), metavar=metavar, help=says)
 
 
-@cli.command("check")
+@cli.command("check", short_help="Certify tiles: seams, doubles, symmetry.")
 @click.argument("sources", nargs=-1, required=True, metavar="RECIPE|SVG…")
 @_set
 @click.option("--repeat", metavar="WORDS", help="How a drawing without a recipe repeats.  [default: grid]")
@@ -265,7 +265,7 @@ def _kind_name(_ctx: click.Context, _param: click.Parameter, name: str | None) -
     return name
 
 
-@cli.command("new")
+@cli.command("new", short_help="Write a recipe to begin with.")
 @click.argument("name", required=False)
 @click.option(
     "--kind",

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from batik_vector.drafting.draft import Draft
 
 
-@click.command("import")
+@click.command("import", short_help="Take a whole tile over as a recipe.")
 @click.argument("tile", metavar="TILE.svg")
 @click.option("-o", "path", metavar="FILE", help="The recipe to write.  [default: NAME.toml]")
 @click.option("--repeat", metavar="WORDS", default="grid", help="How the page repeats.  [default: grid]")
@@ -115,7 +115,7 @@ def _several(count: int, what: str) -> str:
     return f"{count:,} {what}" if count == 1 else f"{count:,} {what}s"
 
 
-@click.command("export-motif")
+@click.command("export-motif", short_help="Draw one motif of a recipe as an SVG.")
 @click.argument("recipe", metavar="RECIPE")
 @click.argument("motif", metavar="MOTIF")
 @click.option("-o", "path", metavar="FILE", help="The SVG to write.  [default: MOTIF.svg]")
