@@ -40,6 +40,8 @@ def import_command(
     from batik_vector.command.new_files import new_file, write_new
 
     with reported(as_json) as report:
+        if Path(tile).suffix.lower() == ".toml":
+            raise ExportError(f"{tile} is a recipe, expected a tile as SVG")
         target = new_file(path, Path(tile).stem, ".toml", force)
         if target.suffix.lower() != ".toml":
             raise ExportError(f'"{target}" is no name of a recipe, expected one that ends with .toml')

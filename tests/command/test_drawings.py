@@ -82,7 +82,7 @@ def test_nothing_that_is_there_is_replaced(there: str, desk: Path, monkeypatch: 
         (["import", "leaves.svg", "-o", "own.svg"], '"own.svg" is no name of a recipe'),
         (["import", "leaves.svg", "-o", "no/own.toml"], 'there is no folder "no"'),
         (["import", "leaves.svg", "--tolerance", "9"], "9.0 is not in the range 0.002<=x<=5"),
-        (["import", "recipe.toml", "-o", "own.toml"], "recipe.toml:2: is no SVG"),
+        (["import", "recipe.toml", "-o", "own.toml"], "recipe.toml is a recipe, expected a tile as SVG"),
         (["export-motif", "recipe.toml", "leave"], 'unknown motif "leave": did you mean "leaf"?'),
         (["export-motif", "recipe.toml", "leaf", "-o", "leaf.toml"], '"leaf.toml" is no name of a drawing'),
         (["export-motif", "none.toml", "leaf"], "none.toml: no such file"),
