@@ -56,7 +56,8 @@ def asymmetric(
     # Of each lot the one nearest to the lower left corner.
     order = np.lexsort([centres.sum(axis=1).round(6), label])
     first = np.append(True, label[order][1:] != label[order][:-1])
-    return np.sort(order[first])
+    chosen: Index = np.asarray(order[first], np.intp)
+    return np.sort(chosen)
 
 
 class _Field:

@@ -188,7 +188,7 @@ class _Marks:
         def nearest(to: Floats) -> Floats:
             return np.asarray(exact + step * np.rint((to - exact) / step))
 
-        likely = [plain, nearest(angle), nearest(guess), angle]
+        likely = [plain, nearest(angle), nearest(np.asarray(guess, np.float64)), angle]
         return likely + [likely[1] + step * k for k in range(1, min(fold, MOST_TRIED))]
 
     def _tidy(self, head: int, angle: Floats) -> Floats:
