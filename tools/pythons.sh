@@ -24,8 +24,8 @@ found() {
     done
 }
 
-# The first of each version: the one that PYTHON names comes before all others.
-mapfile -t pythons < <(found | awk '!seen[$1]++')
+# The first of each minor version: the one that PYTHON names comes before all others.
+mapfile -t pythons < <(found | awk '{ split($1, part, "."); if (!seen[part[1] "." part[2]]++) print }')
 if [ ${#pythons[@]} -eq 0 ]; then
     echo "pythons: none from 3.11 on was found" >&2
     exit 1

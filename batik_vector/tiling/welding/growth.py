@@ -13,12 +13,16 @@ from batik_vector.units import STEPS_PER_MM
 PLAIN_CORNERS = 8
 """Chords in a quarter circle where a shape is only asked what it meets: off by 0.5 % of the reach."""
 
+LEFT_OVER = 1.5
+"""By how much longer than asked a chord may be: GEOS rounds how many a corner has, and a corner of almost one
+and a half chords gets one. What is half way goes by the last bit, so that a corner turned gets another."""
+
 
 def quad_segs(radius: float, tolerance: float) -> int:
     """Return into how many pieces a buffer must cut a quarter turn to keep the tolerance (both in mm)."""
     if radius <= tolerance:
         return 2
-    return max(2, int(np.ceil(np.pi / 4 / np.arccos(1 - tolerance / radius))))
+    return max(2, int(np.ceil(LEFT_OVER * np.pi / 4 / np.arccos(1 - tolerance / radius))))
 
 
 def grown(marks: Geometries, reach: float, tolerance: float) -> Geometries:
