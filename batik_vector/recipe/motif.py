@@ -8,82 +8,28 @@ of, bottom first, and all that follows (sampling, filling, laying out) is the sa
 from __future__ import annotations
 
 import functools
-from dataclasses import field, fields
-from typing import Annotated, Any, TypeAlias
+from dataclasses import field
+from typing import Annotated, TypeAlias
 
 from batik_vector.errors import GeometryError, unknown_name
-from batik_vector.fields import Between, OneOf, Says, check
+from batik_vector.fields import Between, Says, check
 from batik_vector.geometry.curves import (
-    CURVES,
     Circle,
-    Curve,
     Hypocycloid,
-    OutlineCurve,
     PathCurve,
     Petal,
     Rose,
     Superellipse,
     YAxis,
 )
-from batik_vector.geometry.curves.base import FunctionCurve, Outlined
 from batik_vector.geometry.curves.path import PATH_DATA, Coordinate, path_middle
-from batik_vector.geometry.paths.geometries import outline_of
 from batik_vector.recipe.drawing import Svg
+from batik_vector.recipe.element import Element as Element
+from batik_vector.recipe.element import Ring as Ring
+from batik_vector.recipe.element import dressed
 from batik_vector.recipe.look import Dress as Dress
 from batik_vector.recipe.look import Treatment as Treatment
 from batik_vector.values import frozen
-
-AnyCurve: TypeAlias = Annotated[Curve, OneOf(lambda: CURVES, "curve")]
-
-
-Ring: TypeAlias = tuple[int, float, float, float, float, bool]
-"""Count, radius, turn, arc, spin and mirror of an element: what says where its curve is drawn."""
-
-
-@frozen(kw_only=True)
-class Element(Dress):
-    """A curve and its copies turned about the motif's centre.
-
-    A copy is first turned by ``spin`` about its own centre, then set ``radius`` out along +x, then turned
-    by ``turn`` and on by arc/count from copy to copy.
-    """
-
-    curve: Annotated[AnyCurve, Says("the curve drawn")]
-    name: Annotated[str, Says("what the element is called in the file")] = ""
-    count: Annotated[int, Between(1, 1000), Says("copies round the centre")] = 1
-    radius: Annotated[float, Between(-1e3, 1e3), Says("distance of the copies from the centre")] = 0.0
-    turn: Annotated[float, Between(-360, 360), Says("degrees to which the first copy is turned")] = 0.0
-    arc: Annotated[float, Between(-360, 360), Says("degrees over which the copies are spread")] = 360.0
-    spin: Annotated[float, Between(-360, 360), Says("degrees each copy is turned about itself")] = 0.0
-    mirror: Annotated[bool, Says("also draw each copy's mirror image")] = False
-
-    def __post_init__(self) -> None:
-        check(self)
-        # What is drawn by hand may be open by oversight; a spiral or a wave says so by its name.
-        drawn = isinstance(self.curve, FunctionCurve | Outlined)
-        if drawn and self.treatment in (Treatment.AREA, Treatment.CUT) and not self.curve.closed:
-            raise GeometryError(
-                'an open line has no area to fill: expected treatment = "line", "stroke" or "both", '
-                "or a curve that is closed (path data end each subpath with Z)"
-            )
-
-    @classmethod
-    def from_geometry(cls, geometry: Any, **look: Any) -> Element:
-        """Return an element that draws geometry of shapely: polygons with holes, lines, several of them.
-
-        Args:
-            geometry: one, or a list or array of them, in motif units.
-            look: the other fields of an element, such as ``ink`` and ``treatment``.
-
-        Raises:
-            GeometryError: where it is none, is empty, not finite or has points.
-        """
-        return cls(curve=OutlineCurve(outline_of(geometry)), **look)
-
-    @property
-    def ring(self) -> Ring:
-        """What says where the curve is drawn."""
-        return self.count, self.radius, self.turn, self.arc, self.spin, self.mirror
 
 
 @frozen(kw_only=True)
@@ -104,9 +50,9 @@ class Leaf(Dress):
             curve = Superellipse(self.a, self.b, self.length, self.width)
             copies = self.count // 2
             # Each is its own image under a half turn.
-            return _dressed(self, "leaf", curve, copies, turn=first, arc=180.0)
+            return dressed(self, "leaf", curve, copies, turn=first, arc=180.0)
         curve = Superellipse(self.a, self.b, self.length / 2, self.width)
-        return _dressed(self, "leaf", curve, self.count, turn=first, radius=self.length / 2)
+        return dressed(self, "leaf", curve, self.count, turn=first, radius=self.length / 2)
 
 
 @frozen(kw_only=True)
@@ -120,7 +66,7 @@ class Petals(Dress):
 
     def element(self) -> Element:
         """Every petal is a ring of its own from the centre and back."""
-        return _dressed(self, "petal", Petal(self.n, self.length), self.count, turn=self.turn)
+        return dressed(self, "petal", Petal(self.n, self.length), self.count, turn=self.turn)
 
 
 @frozen(kw_only=True)
@@ -145,7 +91,7 @@ class Pistil(Dress):
 
     def element(self) -> Element:
         """One star."""
-        return _dressed(self, "pistil", self._star(), 1, turn=self.turn)
+        return dressed(self, "pistil", self._star(), 1, turn=self.turn)
 
 
 @frozen(kw_only=True)
@@ -160,24 +106,10 @@ class Core(Dress):
     def element(self) -> Element:
         """A rose has 2n petals for even n and n for odd; other counts are single petals."""
         if self.count % 4 == 0:
-            return _dressed(self, "core", Rose(self.count // 2, 1, self.length), 1, turn=self.turn)
+            return dressed(self, "core", Rose(self.count // 2, 1, self.length), 1, turn=self.turn)
         if self.count % 2 == 1:
-            return _dressed(self, "core", Rose(self.count, 1, self.length), 1, turn=self.turn)
-        return _dressed(self, "core", Petal(self.count // 2, self.length), self.count, turn=self.turn)
-
-
-def _dressed(
-    part: Dress,
-    name: str,
-    curve: Curve,
-    count: int,
-    *,
-    turn: float = 0.0,
-    radius: float = 0.0,
-    arc: float = 360.0,
-) -> Element:
-    look = {f.name: getattr(part, f.name) for f in fields(Dress)}
-    return Element(curve=curve, name=name, count=count, turn=turn, radius=radius, arc=arc, **look)
+            return dressed(self, "core", Rose(self.count, 1, self.length), 1, turn=self.turn)
+        return dressed(self, "core", Petal(self.count // 2, self.length), self.count, turn=self.turn)
 
 
 FLOWER_ORDER = ("leaf", "petal", "pistil", "core", "disc")
@@ -222,7 +154,7 @@ class Flower:
         }
         drawn = {name: part.element() for name, part in parts.items() if part.count}
         if self.core.radius:
-            drawn["disc"] = _dressed(self.disc, "disc", Circle(self.core.radius), 1)
+            drawn["disc"] = dressed(self.disc, "disc", Circle(self.core.radius), 1)
         return tuple(drawn[name] for name in self.order if name in drawn)
 
 
@@ -271,7 +203,7 @@ class PathMotif(Dress):
     @functools.cached_property
     def _parts(self) -> tuple[Element, ...]:
         centre = self.centre or path_middle(self.d)
-        return (_dressed(self, "", PathCurve(self.d, self.y, centre), 1),)
+        return (dressed(self, "", PathCurve(self.d, self.y, centre), 1),)
 
     def keys(self) -> tuple[str, ...]:
         """Return the keys of its elements' tables: there is but its own."""
