@@ -230,14 +230,13 @@ def render_output(page: Page, output: OutputSpec, sink: BinaryIO) -> None:
     write_page(page, sink, output.format, output.options, check=False)
 
 
-def _set_out(tile: Artwork, repeat: tuple[int, int], bleed: float) -> Artwork:
+def _set_out(tile: Artwork, repeat: tuple[int, int], bleed: float) -> Page:
     if repeat == (1, 1) and not bleed:
         return tile
     # Most files show the tile once, and do without all that fills a field with it.
-    from batik_vector.tiling.cloth.field import repeated, with_bleed
+    from batik_vector.tiling.cloth.field import field_page
 
-    field = tile if repeat == (1, 1) else repeated(tile, *repeat)
-    return with_bleed(field, bleed) if bleed else field
+    return field_page(tile, *repeat, bleed)
 
 
 def run(job: Job, tell: Callable[[str], None]) -> dict[str, Any]:

@@ -184,23 +184,21 @@ def _rounded(coords: NDArray[np.float64], scale: float) -> Steps:
     return np.rint(coords, out=coords).astype(np.int64)
 
 
-def to_polygons(outlines: Outlines) -> NDArray[np.object_]:
-    """Return the marks as polygons, in the same unit."""
+def to_polygons(outlines: Outlines, steps: int = 1) -> NDArray[np.object_]:
+    """Return the marks as polygons, in the same unit or in one of so many steps."""
     points, rings = outlines.repeating()
     if not len(outlines):
         return np.empty(0, dtype=object)
-    made = shapely.from_ragged_array(
-        shapely.GeometryType.POLYGON, points.astype(np.float64), (rings, outlines.marks)
-    )
+    made = shapely.from_ragged_array(shapely.GeometryType.POLYGON, points / steps, (rings, outlines.marks))
     return np.asarray(made, dtype=object)
 
 
-def to_polylines(outlines: Outlines) -> NDArray[np.object_]:
-    """Return the marks as polylines, in the same unit; a closed one repeats its first point at its end."""
+def to_polylines(outlines: Outlines, steps: int = 1) -> NDArray[np.object_]:
+    """Return the marks as polylines, likewise; a closed one repeats its first point at its end."""
     points, rings = outlines.repeating()
     if not len(outlines):
         return np.empty(0, dtype=object)
-    made = shapely.from_ragged_array(shapely.GeometryType.LINESTRING, points.astype(np.float64), (rings,))
+    made = shapely.from_ragged_array(shapely.GeometryType.LINESTRING, points / steps, (rings,))
     return np.asarray(made, dtype=object)
 
 

@@ -14,8 +14,17 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from batik_vector.artwork import Cell
-from batik_vector.geometry.outlines import Index, Outlines, Steps, of_polygons, to_polygons, together
+from batik_vector.artwork import Cell, Ink, Layer, Overlap
+from batik_vector.geometry.outlines import (
+    MM,
+    Index,
+    Outlines,
+    Steps,
+    of_polygons,
+    of_polylines,
+    to_polygons,
+    together,
+)
 from batik_vector.tiling.cloth.chains import Chains, Copies, cancelled, chains_of, numbered
 from batik_vector.tiling.cloth.paths import Ends, ends_of, paths_of
 from batik_vector.tiling.cloth.rings import rings_of, whole
@@ -38,6 +47,19 @@ class Unrolled:
     whole: Outlines
     endless: Outlines
     strand: Index
+
+
+def welds(ink: Ink) -> bool:
+    """Return whether marks of an ink that meet are one; those of an overlay stay single."""
+    return ink.overlap != Overlap.OVERLAY
+
+
+def unrolled(layer: Layer, cell: Cell, lines: bool = False) -> Unrolled:
+    """Return the areas of a layer, or its lines, off the torus."""
+    if lines:
+        return unrolled_lines(replace(of_polylines(layer.lines, MM), names=layer.line_names), cell)
+    areas = replace(of_polygons(layer.areas, MM), names=layer.area_names)
+    return unrolled_areas(areas, cell, welds(layer.ink))
 
 
 def lattice_of(cell: Cell) -> Steps:

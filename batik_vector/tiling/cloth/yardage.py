@@ -19,11 +19,10 @@ from batik_vector.artwork import Artwork, Cell, Geometries, Ink, Layer, Margins,
 from batik_vector.errors import GeometryError, TooLargeError
 from batik_vector.geometry.outlines import MM, Outlines, Steps, nothing, of_polygons, of_polylines
 from batik_vector.tiling.cloth.clusters import clustered
-from batik_vector.tiling.cloth.field import unrolled, welds
 from batik_vector.tiling.cloth.filling import filled_areas, filled_lines
 from batik_vector.tiling.cloth.guides import Guides, guide_ink
 from batik_vector.tiling.cloth.spec import Align, Edge, YardageSpec
-from batik_vector.tiling.cloth.whole_marks import Unrolled
+from batik_vector.tiling.cloth.whole_marks import Unrolled, unrolled, welds
 from batik_vector.tiling.cloth.windows import PIECE, Filling
 from batik_vector.tiling.torus.torus import Window
 from batik_vector.units import STEPS_PER_MM, format_mm, to_steps
@@ -166,7 +165,7 @@ def compile_yardage(
         raise TooLargeError(_too_large(count, spec.limit, rows))
     origin = _origin(artwork.cell, spec, frame, columns, rows)
     filling = replace(_filling(artwork.cell, spec, frame, origin), piece=piece)
-    drawn = tuple(_drawn(artwork, frame, origin, inks))
+    drawn = tuple(drawn_inks(artwork, frame, origin, inks))
     if not filling.cut:
         drawn = _guarded(drawn, artwork.cell)
     return _page(artwork, spec, frame, filling, origin, drawn, count, progress or (lambda words: None))
@@ -286,8 +285,8 @@ def _guides(cell: Cell, spec: YardageSpec, origin: tuple[int, int]) -> Guides:
     )
 
 
-def _drawn(
-    artwork: Artwork, frame: Frame | None, origin: tuple[int, int], order: Sequence[str]
+def drawn_inks(
+    artwork: Artwork, frame: Frame | None = None, origin: tuple[int, int] = (0, 0), order: Sequence[str] = ()
 ) -> Iterator[_Drawn]:
     """Yield the inks of the tile and of its borders, in painting order."""
     tile = {layer.ink.name: layer for layer in artwork.layers}
