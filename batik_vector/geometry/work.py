@@ -41,6 +41,9 @@ PER_PAIR, PER_PAIR_VERTEX = 3.0, 0.006
 PER_BENT_VERTEX = 4.0
 """What a vertex costs of a motif that a layout bends: it is one of the many points that are tried."""
 
+PER_TRACED_POINT = 0.5
+"""What a point costs that is tried on the image of a curve under a map."""
+
 PER_RELATED_VERTEX = 0.1
 """What a vertex costs of shapes that are asked whether their insides meet."""
 
@@ -88,7 +91,8 @@ class _Account:
             often = " and ".join(f"{do} about {_about(times)} times" for do, times in counted if times >= 1)
             raise TooLargeError(
                 f"shapes of about {_about(self.vertices)} vertices{' that ' if often else ''}{often} to "
-                "overlay, more than fits: expected fewer or smaller ones, fewer contours, or a larger tile"
+                "bend or overlay, more than fits: expected fewer or smaller ones, fewer contours, or a larger "
+                "tile"
             )
 
 

@@ -7,6 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from batik_vector.geometry import work
 from batik_vector.geometry.maps.affine import Complexes
 from batik_vector.geometry.maps.flame import FlameMap
 from batik_vector.geometry.maps.images.chains import Angles, Chains
@@ -64,6 +65,8 @@ def trace_images(
     middle = None if angles is None else angles.middle
 
     def evaluate(piece: Indices, t: Array) -> Points:
+        # A map of a steep power needs millions of points, near the limit of a curve again and again.
+        work.spend(len(t), per_vertex=work.PER_TRACED_POINT)
         point = z[piece] + step[piece] * t
         angle = None
         if middle is not None:

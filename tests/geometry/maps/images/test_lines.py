@@ -8,7 +8,8 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from batik_vector.errors import TornRingError
+from batik_vector.errors import TooLargeError, TornRingError
+from batik_vector.geometry import work
 from batik_vector.geometry.maps import FlameMap, JuliaN, Linear, Sinusoidal, Spherical, Swirl
 from batik_vector.geometry.maps.images.lines import line_images
 from tests.geometry.maps.images.measure import array_of, stray
@@ -97,3 +98,11 @@ def test_waves_do_not_hide_between_samples(variation: Swirl | Sinusoidal) -> Non
     line = shapely.LineString([(-math.pi, 1.0), (math.pi, 1.0 + 1e-3), (0.0, 4.0)])
     images = line_images(map_, array_of(line), TOLERANCE)
     assert max(stray(map_, line, images, count=1500)) <= TOLERANCE * 1.05
+
+
+def test_all_images_together_are_bounded_where_each_would_do(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(work, "LIMIT", 2_000.0)
+    line_images(root(), array_of(wound(1)), TOLERANCE)
+    with pytest.raises(TooLargeError, match="to bend"), work.account():
+        for _ in range(50):
+            line_images(root(), array_of(wound(1)), TOLERANCE)
