@@ -91,8 +91,8 @@ class _Account:
             often = " and ".join(f"{do} about {_about(times)} times" for do, times in counted if times >= 1)
             raise TooLargeError(
                 f"shapes of about {_about(self.vertices)} vertices{' that ' if often else ''}{often} to "
-                "bend or overlay, more than fits: expected fewer or smaller ones, fewer contours, or a larger "
-                "tile"
+                "bend or overlay, more than fits: expected fewer or smaller ones, fewer contours, "
+                "or a larger tile"
             )
 
 
