@@ -33,7 +33,7 @@ from tools.house import (
     room_of,
 )
 
-MOST_FILES, MOST_ROOMS, FULL = 10, 12, 26
+MOST_FILES, MOST_ROOMS, FULL = 10, 14, 26
 """How many files and rooms the package's top may hold, and how many files a room."""
 
 MODULES = modules()
@@ -63,7 +63,7 @@ def test_every_room_has_a_floor() -> None:
         rooms = {room_of(name_of(path), wing) for path in paths} - ({"__init__"} if wing else set())
         assert rooms <= set().union(*known), f"give these a floor in {Path(__file__).name}"
         assert rooms >= set().union(*known), "a floor without a room"
-    assert len(FLOORS) <= 11
+    assert len(FLOORS) <= 12
 
 
 @pytest.mark.parametrize("path", MODULES, ids=name_of)

@@ -119,7 +119,7 @@ def _compile(each: Try, pipe: int, seconds: float, gigabytes: float) -> None:
 
 
 def _run(path: Path, folder: Path) -> str:
-    from batik_vector.command.jobs import planned, read_jobs, run
+    from batik_vector.making.jobs import planned, read_jobs, run
 
     for job in planned(read_jobs([str(path)]), folder):
         report = run(job, lambda stage: None)
@@ -181,10 +181,10 @@ def main() -> int:
 
 def _warm() -> None:
     """Import what a try needs, so that its process finds it there."""
-    import batik_vector.command.jobs
     import batik_vector.compiling.borders
     import batik_vector.export.dxf
     import batik_vector.export.pdf
+    import batik_vector.making.jobs
     import batik_vector.recipe.reading.validator
     import batik_vector.tiling.cloth.field
     import batik_vector.tiling.cloth.yardage

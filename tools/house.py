@@ -40,6 +40,7 @@ FLOORS: Floors = _floors(
     "importing",
     "recipe certificate",
     "compiling drafting",
+    "making",
     "command",
     "__init__ __main__",
 )

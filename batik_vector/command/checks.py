@@ -17,7 +17,6 @@ from batik_vector.artwork import Artwork
 from batik_vector.certificate import Asked, Certificate, Kind, Limits, certify, pointers
 from batik_vector.certificate.pointers import COLOUR, NAME, pointer_lines
 from batik_vector.command.carried_recipes import Promise, bled, differences, promised
-from batik_vector.command.jobs import Job, made, read_jobs, warnings
 from batik_vector.compiling.compiler import compile_recipe, inspect
 from batik_vector.errors import BatikError, ExportError, Fault, GeometryError, RecipeError
 from batik_vector.export import render, write_all_whole
@@ -26,6 +25,7 @@ from batik_vector.geometry.paths.matrix import Matrix
 from batik_vector.importing.document import load
 from batik_vector.importing.overlay import laid_over
 from batik_vector.importing.svg import Reading, read_svg
+from batik_vector.making.jobs import Job, made, read_jobs, warnings
 from batik_vector.recipe.loading import read_recipe
 from batik_vector.recipe.model import Recipe
 from batik_vector.recipe.reading.sources import COMPILED

@@ -22,7 +22,7 @@ from batik_vector.command.telling import collecting, complain, faults_told, repo
 from batik_vector.errors import BatikError, unknown_name
 
 if TYPE_CHECKING:
-    from batik_vector.command.jobs import Job
+    from batik_vector.making.jobs import Job
 
 FORMATS = ("svg", "pdf", "dxf", "png")
 """As in :data:`batik_vector.export.FORMATS`, which a test compares."""
@@ -132,7 +132,7 @@ def compile_command(
     """
     from pathlib import Path
 
-    from batik_vector.command.jobs import planned, read_jobs, ready, run
+    from batik_vector.making.jobs import planned, read_jobs, ready, run
 
     collecting()
     with reported(as_json) as report:

@@ -291,7 +291,7 @@ def test_the_command_asks_for_one_thread_of_linear_algebra_unless_told_otherwise
 
 def test_garbage_is_collected_while_the_command_works_and_after_it() -> None:
     code = (
-        "import gc, sys, batik_vector.command.jobs as jobs\n"
+        "import gc, sys, batik_vector.making.jobs as jobs\n"
         "work, seen = jobs.run, []\n"
         "jobs.run = lambda *args: (seen.append(gc.isenabled()), work(*args))[1]\n"
         "sys.argv[1:] = ['compile', 'k.toml']\n"

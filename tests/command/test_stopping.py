@@ -15,7 +15,7 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of POSI
 WORK = """
 import sys
 import numpy as np, shapely
-import batik_vector.command.jobs as jobs
+import batik_vector.making.jobs as jobs
 from batik_vector.export import files
 
 files.CAN_BE_NAMELESS = False

@@ -9,8 +9,8 @@ from typing import Any
 import pikepdf
 import pytest
 
-from batik_vector.command.jobs import Job, piece_of, planned, read_jobs, run
 from batik_vector.errors import ExportError, RecipeError, TooLargeError
+from batik_vector.making.jobs import Job, piece_of, planned, read_jobs, run
 from batik_vector.recipe.outputs import Piece
 from tests.export.readers import svg_layers
 

@@ -1,0 +1,1 @@
+"""Files made of recipes: of one, of many on all cores, and of a recipe's variants."""
