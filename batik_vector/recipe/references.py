@@ -15,6 +15,9 @@ from batik_vector.values import defaults
 Path: TypeAlias = tuple[str | int, ...]
 """Keys and indices from the root of a recipe."""
 
+EVERY = "*"
+"""The index of all members of a list, as people write it: ``place[*].width``."""
+
 INK_KEYS = ("ink", "line_ink")
 PLACES = ("place", "corner_place")
 """Keys of a border that hold placements."""
@@ -27,6 +30,8 @@ def dotted(path: Path) -> str:
     for part in path:
         if isinstance(part, int):
             text += f"[{part}]"
+        elif part == EVERY:
+            text += "[*]"
         else:
             bare = part and _BARE.issuperset(part)
             text += ("." if text else "") + (shortened(part) if bare else quoted(shortened(part)))

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import contextlib
+import functools
 import re
 import tomllib
 from bisect import bisect_right
+from collections.abc import Mapping
 
-from batik_vector.recipe.references import Path
+from batik_vector.recipe.references import EVERY, Path
 
 _BLANK = re.compile(r"[ \t\r\n]*+(?:#[^\n]*+[ \t\r\n]*+)*")
 _SPACE = re.compile(r"[ \t]*+")
@@ -29,6 +31,7 @@ class _Scanner:
         self.text = text
         self.at = 0
         self.starts: dict[Path, int] = {}
+        self.values: dict[Path, tuple[int, int]] = {}
         self._counts: dict[Path, int] = {}
 
     def run(self) -> None:
@@ -95,7 +98,7 @@ class _Scanner:
 
     def _value(self, path: Path) -> None:
         self._skip(_SPACE)
-        first = self.text[self.at]
+        start, first = self.at, self.text[self.at]
         if first == "[":
             self._array(path)
         elif first == "{":
@@ -104,6 +107,7 @@ class _Scanner:
             self._skip(_TEXT)
         else:
             self._skip(_SCALAR)
+        self.values[path] = start, start + len(self.text[start : self.at].rstrip())
 
     def _array(self, path: Path) -> None:
         self.at += 1
@@ -129,6 +133,18 @@ class _Scanner:
         if self.text[self.at] == ",":
             self.at += 1
             self._skip(_BLANK)
+
+
+@functools.lru_cache(maxsize=4)
+def value_spans(text: str) -> Mapping[Path, tuple[int, int]]:
+    """Return where each value stands that is written in place, from its first character to past its last.
+
+    Kept: of one recipe many variants are made.
+    """
+    scanner = _Scanner(text)
+    with contextlib.suppress(IndexError, AssertionError, RecursionError, ValueError):
+        scanner.run()
+    return scanner.values
 
 
 class Lines:
@@ -161,7 +177,7 @@ def parse_path(text: str) -> Path:
     path: list[str | int] = []
     at = 0
     token = re.compile(
-        r"""\[(\d{1,9})\]|(?:^|(?<=.)\.)(?:([A-Za-z0-9_-]+)|("[^"\\\n]*+(?:\\.[^"\\\n]*+)*"|'[^'\n]*+'))"""
+        r"""\[(\d{1,9}|\*)\]|(?:^|(?<=.)\.)(?:([A-Za-z0-9_-]+)|("[^"\\\n]*+(?:\\.[^"\\\n]*+)*"|'[^'\n]*+'))"""
     )
     while at < len(text):
         found = token.match(text, at)
@@ -169,7 +185,7 @@ def parse_path(text: str) -> Path:
             raise ValueError("expected keys joined by dots, such as motif.flower.petal.count")
         index, bare, quoted = found.groups()
         if index is not None:
-            path.append(int(index))
+            path.append(EVERY if index == EVERY else int(index))
         elif bare is not None:
             path.append(bare)
         else:

@@ -1,18 +1,24 @@
-"""``--set KEY=VALUE``: a recipe changed from outside, its comments kept."""
+"""``--set KEY=VALUE``: a recipe changed from outside, its comments kept.
+
+A key may be cut short from the left where only one place in the recipe can be meant: ``layout.dist`` is
+``place[0].layout.dist`` where one placement has a layout.
+"""
 
 from __future__ import annotations
 
 import copy
+import functools
 import re
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import Any
 
 from batik_vector.errors import Fault, RecipeError, unknown_name
 from batik_vector.recipe.reading.faults import odd_number, shown
 from batik_vector.recipe.reading.limits import MAX_DEPTH, odd_numbers
-from batik_vector.recipe.reading.lines import parse_path
-from batik_vector.recipe.references import Path, dotted
+from batik_vector.recipe.reading.lines import parse_path, value_spans
+from batik_vector.recipe.references import EVERY, Path, dotted
 from batik_vector.values import frozen
 
 NAMED = ("motif", "ink")
@@ -75,31 +81,140 @@ def overridden(text: str, data: dict[str, Any], overrides: Sequence[Override]) -
         RecipeError: for each path that leads nowhere.
     """
     changed = copy.deepcopy(data)
-    faults = []
+    faults, meant = [], []
     for override in overrides:
         try:
-            _put(changed, override, {})
+            each = [replace(override, path=path) for path in full_paths(changed, override.path)]
+            for one in each:
+                _put(changed, one, {})
+            meant += each
         except _Astray as astray:
             faults.append(Fault(astray.words, dotted(astray.path), override.source))
     if faults:
         raise RecipeError(faults)
-    return _rewritten(text, changed, overrides), changed
+    return _rewritten(text, changed, meant), changed
+
+
+def full_paths(tables: dict[str, Any], path: Path) -> list[Path]:
+    """Return the paths that one stands for which is cut short, or which names every member of a list.
+
+    What begins at the root, or leads nowhere, is left as it is.
+    """
+    if EVERY in path:
+        return _each(tables, path)
+    if path[0] in _roots() or path[0] in tables:
+        return [path]
+    found = [(*at, name) for at, table in _inner(tables, ()) for name in table]
+    found = [each for each in found if _ends(each, path)]
+    if not found and len(path) > 1:
+        # What is not written yet goes into the one table that is called so.
+        found = [(*at, path[-1]) for at, _ in _inner(tables, ()) if _ends(at, path[:-1])]
+    if len(found) > 1:
+        some = ", ".join(map(dotted, found[:MOST_NAMED])) + (", …" if len(found) > MOST_NAMED else "")
+        every = {tuple(EVERY if isinstance(part, int) else part for part in each) for each in found}
+        ways = f", or all of them as {dotted(every.pop())}" if len(every) == 1 else ""
+        raise _Astray(path, f"may be any of {some}: expected one of them in full{ways}")
+    return found or [path]
+
+
+def _each(tables: dict[str, Any], path: Path) -> list[Path]:
+    """Return the paths into every member of lists, as far as the members have the tables on the way."""
+    found: list[tuple[Path, Any]] = [((), tables)]
+    for part in path[:-1]:
+        found = [
+            ((*at, key), node[key]) for at, node in found for key in _keys(node, part) if _has(node, key)
+        ]
+    ends = [((*at, key), _has(node, key)) for at, node in found for key in _keys(node, path[-1])]
+    # Where some have the key others may be of a kind that does not know it.
+    some = [each for each, written in ends if written] or [each for each, _ in ends]
+    if not some:
+        raise _Astray(path, "leads nowhere in this recipe: expected lists where it has [*]")
+    return some
+
+
+MOST_NAMED = 4
+"""Keys that a message lists."""
+
+
+@functools.cache
+def _roots() -> frozenset[str]:
+    from batik_vector.recipe.model import Recipe
+
+    return frozenset(Recipe.__dataclass_fields__)
+
+
+def _keys(node: Any, part: str | int) -> Sequence[Any]:
+    """Return the keys of a node that a part of a path names, present or not."""
+    if isinstance(node, list):
+        return range(len(node)) if part == EVERY else [part] if isinstance(part, int) else []
+    return [part] if isinstance(node, dict) and isinstance(part, str) else []
+
+
+def _has(node: Any, key: Any) -> bool:
+    return key < len(node) if isinstance(node, list) else key in node
+
+
+def _ends(path: Path, end: Path) -> bool:
+    """Return whether a path ends so; indices that the end leaves out are passed over."""
+    rest = list(path)
+    for part in reversed(end):
+        while rest and isinstance(rest[-1], int) and not isinstance(part, int):
+            rest.pop()
+        if not rest or rest.pop() != part:
+            return False
+    return True
+
+
+def _inner(node: Any, at: Path) -> Iterator[tuple[Path, dict[str, Any]]]:
+    """Yield the tables within tables and lists, with their paths, but for the root."""
+    members = node.items() if isinstance(node, dict) else enumerate(node) if isinstance(node, list) else ()
+    for name, member in members:
+        if isinstance(member, dict):
+            yield (*at, name), member
+        yield from _inner(member, (*at, name))
 
 
 def _rewritten(text: str, changed: dict[str, Any], overrides: Sequence[Override]) -> str:
     """Return the text with its comments where that can be done, else the tables alone."""
     import tomlkit
 
-    try:
-        document: Any = tomlkit.parse(text)
-        for override in overrides:
-            _put(document, override, tomlkit.table())
-        written = tomlkit.dumps(document)
-        if tomllib.loads(written) == changed:
-            return written
-    except (ValueError, TypeError, LookupError, AttributeError, tomlkit.exceptions.TOMLKitError):
-        pass
+    for rewrite in (_in_place, _in_document):
+        try:
+            written = rewrite(text, overrides)
+            if written is not None and tomllib.loads(written) == changed:
+                return written
+        except (ValueError, TypeError, LookupError, AttributeError, tomlkit.exceptions.TOMLKitError):
+            pass
     return tomlkit.dumps(changed)
+
+
+def _in_place(text: str, overrides: Sequence[Override]) -> str | None:
+    """Return the text with values exchanged where they stand, or None where one is not written yet.
+
+    A tenth of the work of a document: a sweep reads one recipe a thousand times.
+    """
+    import tomlkit
+
+    known = value_spans(text)
+    if any(override.path not in known for override in overrides):
+        return None
+    literals = {known[each.path]: tomlkit.item(each.value).as_string() for each in overrides}
+    begun = len(text)
+    for (start, end), literal in sorted(literals.items(), reverse=True):
+        if end > begun:
+            return None
+        text, begun = text[:start] + literal + text[end:], start
+    return text
+
+
+def _in_document(text: str, overrides: Sequence[Override]) -> str:
+    """Return the text as its document, values set, is written."""
+    import tomlkit
+
+    document: Any = tomlkit.parse(text)
+    for override in overrides:
+        _put(document, override, tomlkit.table())
+    return tomlkit.dumps(document)
 
 
 class _Astray(Exception):  # noqa: N818
