@@ -29,6 +29,7 @@ from batik_vector.recipe.border import BorderSpec, Corner, Ends, Facing, RailSpe
 from batik_vector.recipe.drawing import Dressing, Svg
 from batik_vector.recipe.model import ClothSpec, InkSpec, Placement, Recipe, YardageSpec
 from batik_vector.recipe.motif import (
+    MOTIFS,
     Core,
     Dress,
     Element,
@@ -40,6 +41,7 @@ from batik_vector.recipe.motif import (
     Rosette,
     Treatment,
 )
+from batik_vector.recipe.motifs.composing import Composed, Isen, Plate
 from batik_vector.recipe.outputs import OUTPUTS
 from batik_vector.tiling.cloth.spec import Align, Edge
 from batik_vector.tiling.layouts import LAYOUTS, Clear, MapSpec, Spot, Term
@@ -101,6 +103,8 @@ def expected(hint: Any) -> str:
         return "[" + ", ".join(expected(each) for each in inner) + "]"
     if typing.get_origin(base) is dict:
         return "tables by name"
+    if isinstance(base, type) and issubclass(base, Isen | Plate):
+        return "isen" if issubclass(base, Isen) else "plate"
     names = {bool: "`true` or `false`", str: "text", int: "whole number", float: "number"}
     if typing.get_origin(base) is typing.Literal:
         return ", ".join(f"`{word}`" for word in typing.get_args(base))
@@ -187,6 +191,19 @@ def catalogue(title: str, key: str, classes: Mapping[str, type]) -> Iterator[str
         yield from section(f'"{name}"', cls)
 
 
+def composed(name: str, kind: type, look: frozenset[str]) -> Iterator[str]:
+    """Yield the sections of a kind of motif and of its tables that have keys of their own."""
+    yield from section(f'kind = "{name}"', kind)
+    hints = typing.get_type_hints(kind)
+    tables: dict[type, list[str]] = {}
+    for field in dataclasses.fields(kind):
+        part = hints[field.name]
+        if dataclasses.is_dataclass(part) and {each.name for each in dataclasses.fields(part)} - look:
+            tables.setdefault(typing.cast(type, part), []).append(f"{name}.{field.name}")
+    for part, keys in tables.items():
+        yield from section(", ".join(keys), part, 4, look)
+
+
 def groups_table() -> Iterator[str]:
     """Yield the table of wallpaper groups."""
     yield "| group | orbifold | also | cell | copies in the rectangle |"
@@ -240,6 +257,11 @@ def page() -> str:
     lines += words("y (of a path)", YAxis)
     lines += section('kind = "svg"', Svg)
     lines += section("svg.dress", Dressing, 4)
+    for name, motif in MOTIFS.items():
+        if issubclass(motif, Composed):
+            lines += composed(name, motif, look)
+    lines += section("plate", Plate, 3, look - {"gap"})
+    lines += section("isen", Isen, 3, look - {"treatment"})
     lines += ["### The look of every element", ""]
     lines += table(Dress)
     lines += words("treatment", Treatment)

@@ -29,6 +29,8 @@ from batik_vector.recipe.element import Ring as Ring
 from batik_vector.recipe.element import dressed
 from batik_vector.recipe.look import Dress as Dress
 from batik_vector.recipe.look import Treatment as Treatment
+from batik_vector.recipe.motifs.butterfly import ButterflyMotif, PolarButterfly
+from batik_vector.recipe.motifs.composing import Composed
 from batik_vector.values import frozen
 
 
@@ -210,10 +212,17 @@ class PathMotif(Dress):
         return ("",)
 
 
-MOTIFS: dict[str, type] = {"flower": Flower, "rosette": Rosette, "path": PathMotif, "svg": Svg}
+MOTIFS: dict[str, type] = {
+    "flower": Flower,
+    "rosette": Rosette,
+    "path": PathMotif,
+    "svg": Svg,
+    "butterfly": ButterflyMotif,
+    "polar-butterfly": PolarButterfly,
+}
 """The catalogue of kinds: each has ``parts()``, and ``keys()`` that say where these stand in its table."""
 
-Motif: TypeAlias = Flower | Rosette | PathMotif | Svg
+Motif: TypeAlias = Flower | Rosette | PathMotif | Svg | Composed
 
 
 def most_contours(motif: Motif) -> tuple[str, int]:

@@ -57,6 +57,8 @@ BUDGETS = Budgets(
         "evaluations per vertex, petal": 52,
         "evaluations per vertex, hypocycloid": 55,
         "evaluations per vertex, circle": 72,
+        "evaluations per vertex, blade": 90,
+        "evaluations per vertex, butterfly": 81,
         "evaluations per vertex, polygon": 154,  # of four vertices, where there were eight
         "evaluations per vertex, star": 38,
         "evaluations per vertex, polar": 70,

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from batik_vector.geometry.curves.base import Curve, FunctionCurve, OutlineCurve
+from batik_vector.geometry.curves.blade import Blade
+from batik_vector.geometry.curves.butterfly import Butterfly
 from batik_vector.geometry.curves.circle import Circle
 from batik_vector.geometry.curves.harmonic import Parametric, Polar
 from batik_vector.geometry.curves.hypocycloid import Hypocycloid
@@ -23,6 +25,8 @@ CURVES: dict[str, type[Curve]] = {
     "petal": Petal,
     "hypocycloid": Hypocycloid,
     "circle": Circle,
+    "blade": Blade,
+    "butterfly": Butterfly,
     "polygon": Polygon,
     "star": Star,
     "polar": Polar,
@@ -36,6 +40,8 @@ CURVES: dict[str, type[Curve]] = {
 
 __all__ = [
     "CURVES",
+    "Blade",
+    "Butterfly",
     "Circle",
     "Curve",
     "FunctionCurve",

@@ -8,6 +8,8 @@ import shapely
 
 from batik_vector.geometry.curves import (
     CURVES,
+    Blade,
+    Butterfly,
     Circle,
     Curve,
     Hypocycloid,
@@ -45,6 +47,11 @@ EXAMPLES: list[Curve] = [
     ),
     Circle(0.1),
     Circle(1.0),
+    Blade(),
+    Blade(bend=70, lean=0.6, teeth=7),
+    Blade(1, 0.1, 0.35, 3),
+    Butterfly(),
+    Butterfly(1.0, 3.0, 0.0, -0.4),
     Polygon(7),
     Star(5, 1, 0.4),
     Polar(),
