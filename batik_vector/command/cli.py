@@ -17,15 +17,22 @@ import click
 
 from batik_vector._version import __version__
 from batik_vector.command.drawings import export_motif_command, import_command
+from batik_vector.command.options import (
+    FORMATS,
+    format_names,
+    jobs_option,
+    json_option,
+    recipes_argument,
+    set_option,
+)
 from batik_vector.command.stopping import EXITS, end_on_sigterm, listen
+from batik_vector.command.sweeps import sweep_command
 from batik_vector.command.telling import collecting, complain, faults_told, reported, stages
 from batik_vector.errors import BatikError, unknown_name
 
 if TYPE_CHECKING:
     from batik_vector.making.jobs import Job
 
-FORMATS = ("svg", "pdf", "dxf", "png")
-"""As in :data:`batik_vector.export.FORMATS`, which a test compares."""
 KINDS = (
     "border",
     "ceplok",
@@ -88,27 +95,8 @@ def cli() -> None:
     """Compile batik patterns: a recipe goes in, repeatable tiles in true millimetres come out."""
 
 
-def _format_names(_ctx: click.Context, _param: click.Parameter, texts: Sequence[str]) -> list[str]:
-    names = [name.strip().lower() for text in texts for name in text.split(",") if name.strip()]
-    for name in names:
-        if name not in FORMATS:
-            raise click.BadParameter(unknown_name(name, FORMATS, "format"))
-    return names
-
-
-_recipes = click.argument("recipes", nargs=-1, required=True, metavar="RECIPE…")
-_set = click.option(
-    "--set",
-    "overrides",
-    multiple=True,
-    metavar="KEY=VALUE",
-    help="Set a value, as in motif.flower.petal.count=12 or place[0].width='200 mm'.",
-)
-_json = click.option("--json", "as_json", is_flag=True, help="Print one report for machines on stdout.")
-
-
 @cli.command("compile")
-@_recipes
+@recipes_argument
 @click.option(
     "-o", "folder", default=".", metavar="DIR", help="Where files go; made if missing.  [default: .]"
 )
@@ -116,36 +104,63 @@ _json = click.option("--json", "as_json", is_flag=True, help="Print one report f
     "-f",
     "formats",
     multiple=True,
-    callback=_format_names,
+    callback=format_names,
     metavar="FORMAT,…",
     help=f"{', '.join(FORMATS)}.  [default: what the recipe asks for, or svg]",
 )
-@_set
-@_json
+@set_option
+@jobs_option
+@json_option
 def compile_command(
-    recipes: Sequence[str], folder: str, formats: Sequence[str], overrides: Sequence[str], as_json: bool
+    recipes: Sequence[str],
+    folder: str,
+    formats: Sequence[str],
+    overrides: Sequence[str],
+    jobs: int,
+    as_json: bool,
 ) -> None:
     """Compile recipes to files.
 
-    A RECIPE is a TOML file, or an SVG, PDF, DXF or PNG that was compiled from one. The files of a recipe
-    are written all or not at all, as DIR/NAME.SUFFIX, but for PNGs where the system lacks what draws them.
+    A RECIPE is a TOML file, or an SVG, PDF, DXF or PNG that was compiled from one; "*" stands for any name.
+    The files of a recipe are written all or not at all, as DIR/NAME.SUFFIX, but for PNGs where the system
+    lacks what draws them.
     """
     from pathlib import Path
 
-    from batik_vector.making.jobs import planned, read_jobs, ready, run
+    from batik_vector.making.jobs import matching, planned, read_jobs, ready
 
     collecting()
     with reported(as_json) as report:
-        jobs, lacking = ready(planned(read_jobs(recipes, overrides), Path(folder), formats))
-        for job, tell in _progress(jobs, as_json):
-            with faults_told(report):
-                done = run(job, tell)
-                report["recipes"].append(done)
-                _tell_files(done)
+        work, lacking = ready(planned(read_jobs(matching(recipes), overrides), Path(folder), formats))
+        for done in _made(work, jobs, as_json, report):
+            report["recipes"].append(done)
+            _tell_files(done)
         for error in lacking:
             # What can be made is made, and this is the last that people read.
             with faults_told(report):
                 raise error
+
+
+def _made(work: Sequence[Job], workers: int, quiet: bool, report: dict[str, Any]) -> Iterator[dict[str, Any]]:
+    """Make the files of all jobs, in their order or on several cores; yield reports as they are done."""
+    from batik_vector.making.jobs import run, run_quietly
+
+    if min(workers, len(work)) <= 1:
+        for job, tell in _progress(work, quiet):
+            with faults_told(report):
+                yield run(job, tell)
+        return
+    from tqdm import tqdm
+
+    from batik_vector.making.pool import outcomes
+
+    with tqdm(total=len(work), unit="recipe", delay=1, disable=quiet or None, leave=False) as bar:
+        for outcome in outcomes(run_quietly, work, min(workers, len(work))):
+            bar.update()
+            if outcome.result is not None:
+                yield outcome.result
+            with faults_told(report):
+                outcome.check()
 
 
 def _tell_files(done: dict[str, Any]) -> None:
@@ -173,7 +188,7 @@ def _limit(name: str, metavar: str, says: str, option: str = "") -> Callable[[An
 
 @cli.command("check", short_help="Certify tiles: seams, doubles, symmetry.")
 @click.argument("sources", nargs=-1, required=True, metavar="RECIPE|SVG…")
-@_set
+@set_option
 @click.option("--repeat", metavar="WORDS", help="How a drawing without a recipe repeats.  [default: grid]")
 @click.option("--group", metavar="NAME", help="The wallpaper group it ought to have, such as p4m.")
 @_limit(
@@ -192,7 +207,7 @@ def _limit(name: str, metavar: str, says: str, option: str = "") -> Callable[[An
 @_limit("striping", "%", "Unevenness of columns or rows that is a fault; without it none is.")
 @click.option("--lenient", is_flag=True, help="Let pass what cannot be measured, such as blended colours.")
 @click.option("--pointers", metavar="DIR", help="Write NAME-check.svg with a mark at each fault.")
-@_json
+@json_option
 def check_command(
     sources: Sequence[str],
     overrides: Sequence[str],
@@ -294,7 +309,7 @@ def new_command(name: str | None, kind: str | None, path: str | None, force: boo
     click.echo(f"{written} written. Next: batik-vector compile {written}", err=True)
 
 
-for _command in (import_command, export_motif_command):
+for _command in (sweep_command, import_command, export_motif_command):
     cli.add_command(_command)
 
 

@@ -30,7 +30,12 @@ AFTER_HEADER = 8 + 25
 DEFAULTS = PngOptions()
 
 
-def _cairosvg() -> Any:
+def cairo_drawer() -> Any:
+    """Return cairosvg.
+
+    Raises:
+        MissingLibraryError: where the system lacks cairo, with what is to be installed.
+    """
     try:
         import cairosvg
     except (ImportError, OSError) as error:
@@ -48,7 +53,7 @@ def check_ready() -> None:
     Raises:
         MissingLibraryError: with what is to be installed.
     """
-    _cairosvg()
+    cairo_drawer()
 
 
 def pixel_size(page: Page, dpi: float) -> tuple[int, int]:
@@ -95,7 +100,7 @@ def render(page: Page, options: PngOptions = DEFAULTS) -> bytes:
     drawing = svg.render(_shown(page), SvgOptions(profile=Profile.COMPACT, cloth=options.cloth))
     # Sides are rounded to whole pixels each by itself, and the picture fills them.
     drawing = drawing.replace(b" viewBox=", b' preserveAspectRatio="none" viewBox=', 1)
-    data: bytes = _cairosvg().svg2png(bytestring=drawing, output_width=width, output_height=height)
+    data: bytes = cairo_drawer().svg2png(bytestring=drawing, output_width=width, output_height=height)
     per_metre = round(options.dpi / 0.0254).to_bytes(4, "big")
     chunks = _chunk(b"pHYs", per_metre + per_metre + b"\1")
     chunks += _chunk(b"tEXt", PNG_KEYWORD + b"\0" + ascii_line(page.provenance).encode("ascii"))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import glob
 import os
 import time
 from collections.abc import Callable, Container, Iterator, Sequence
@@ -33,12 +34,13 @@ if TYPE_CHECKING:
 
 @frozen
 class Job:
-    """A recipe that has been read, and the files to make of it."""
+    """A recipe that has been read, and the files to make of it, called after its source or a stem."""
 
     source: str
     recipe: Recipe
     overrides: tuple[str, ...] = ()
     files: tuple[tuple[Path, OutputSpec], ...] = ()
+    stem: str = ""
 
 
 def read_jobs(sources: Sequence[str], overrides: Sequence[str] = ()) -> list[Job]:
@@ -59,6 +61,18 @@ def read_jobs(sources: Sequence[str], overrides: Sequence[str] = ()) -> list[Job
     return jobs
 
 
+def matching(sources: Sequence[str]) -> list[str]:
+    """Return sources with the files that a pattern such as ``"samples/*.toml"`` stands for, in order.
+
+    Shells do that themselves, but for the one of Windows, and for what stands in quotes.
+    """
+    found: list[str] = []
+    for source in sources:
+        pattern = any(sign in source for sign in "*?") and not os.path.lexists(source)
+        found += sorted(glob.glob(source)) or [source] if pattern else [source]
+    return found
+
+
 def planned(jobs: Sequence[Job], folder: Path, formats: Sequence[str] = ()) -> list[Job]:
     """Return jobs with the files each of them makes.
 
@@ -71,11 +85,11 @@ def planned(jobs: Sequence[Job], folder: Path, formats: Sequence[str] = ()) -> l
         RecipeError: where two files would have the same name, or an output asks for what the recipe has not.
         ExportError: where a file cannot be written.
     """
-    _check_folder(folder)
+    check_folder(folder)
     plans: list[Job] = []
     faults: list[Fault] = []
     taken: dict[str, Job] = {}
-    drawings = {each.path for job in jobs for _, each in _drawings(job.recipe)}
+    drawings = {each.path for job in jobs for _, each in drawings_of(job.recipe)}
     for job in jobs:
         files = []
         for output in _outputs(job.recipe, formats):
@@ -90,7 +104,7 @@ def planned(jobs: Sequence[Job], folder: Path, formats: Sequence[str] = ()) -> l
             taken[place] = job
             _check_place(path, job, drawings)
             files.append((path, output))
-        plans.append(Job(job.source, job.recipe, job.overrides, tuple(files)))
+        plans.append(replace(job, files=tuple(files)))
     if faults:
         raise RecipeError(faults)
     return plans
@@ -141,8 +155,8 @@ def _unmet(job: Job, output: OutputSpec) -> Fault | None:
 
 
 def _file_name(job: Job, output: OutputSpec) -> str:
-    stem = Path(job.source).stem
-    if Path(job.source).suffix.lower() in COMPILED:
+    stem = job.stem or Path(job.source).stem
+    if not job.stem and Path(job.source).suffix.lower() in COMPILED:
         # A compiled file is called after its recipe and its output: kawung-print.pdf.
         endings = sorted((_ending(job.recipe, each) for each in job.recipe.output), key=len)
         stem = stem.removesuffix(next((end for end in reversed(endings) if stem.endswith(end)), ""))
@@ -171,7 +185,12 @@ def _key_of(job: Job, output: OutputSpec) -> str:
     return next((f"output[{i}]" for i, each in enumerate(job.recipe.output) if each is output), "")
 
 
-def _check_folder(folder: Path) -> None:
+def check_folder(folder: Path) -> None:
+    """Raise where a folder cannot be written to, or could not be made.
+
+    Raises:
+        ExportError: saying what stands there.
+    """
     there = next(each for each in (folder, *folder.parents, Path()) if os.path.lexists(each))
     if not there.is_dir():
         raise ExportError(f"{there} is a file, expected a folder")
@@ -179,7 +198,7 @@ def _check_folder(folder: Path) -> None:
         raise ExportError(f"{there} may not be written to")
 
 
-def _drawings(recipe: Recipe) -> Iterator[tuple[str, Drawing]]:
+def drawings_of(recipe: Recipe) -> Iterator[tuple[str, Drawing]]:
     """Yield the drawings of a recipe's motifs, with the motifs' names."""
     for name, motif in recipe.motif.items():
         if isinstance(motif, Svg) and motif.drawing is not None:
@@ -239,8 +258,11 @@ def _set_out(tile: Artwork, repeat: tuple[int, int], bleed: float) -> Page:
     return field_page(tile, *repeat, bleed)
 
 
-def run(job: Job, tell: Callable[[str], None]) -> dict[str, Any]:
-    """Compile a job and write its files, all of them or none; return the report."""
+def run(job: Job, tell: Callable[[str], None], look: Callable[[Page], None] | None = None) -> dict[str, Any]:
+    """Compile a job and write its files, all of them or none; return the report.
+
+    ``look`` is called with the tile, or with the cloth where there is no tile.
+    """
     start = time.perf_counter()
     recipe = job.recipe
     tile = made(job, tell) if recipe.tile is not None else None
@@ -248,6 +270,9 @@ def run(job: Job, tell: Callable[[str], None]) -> dict[str, Any]:
     if any(piece_of(recipe, output) == Piece.YARDAGE for _, output in job.files):
         with _on_behalf(job):
             cloth = compile_cloth(recipe, tile=tile, progress=tell)
+    shown: Page | None = tile or cloth
+    if look is not None and shown is not None:
+        look(shown)
     reports: list[dict[str, Any]] = []
     writers = []
     notes = [] if tile is None else warnings(recipe, tile)
@@ -264,6 +289,11 @@ def run(job: Job, tell: Callable[[str], None]) -> dict[str, Any]:
         "seconds": round(time.perf_counter() - start, 3),
         "warnings": notes,
     }
+
+
+def run_quietly(job: Job) -> dict[str, Any]:
+    """Do :func:`run` without telling of its stages, as a worker does."""
+    return run(job, lambda stage: None)
 
 
 def _writer(
@@ -321,13 +351,8 @@ def _facts(tile: Artwork | None, cloth: Yardage | None) -> dict[str, Any]:
 def _write(files: Sequence[tuple[Path, Callable[[BinaryIO], None]]]) -> None:
     """Write all files or none; folders made for them go again where nothing comes of it."""
     fresh: list[Path] = []
-    try:
-        for path, _ in files:
-            missing = [each for each in (path.parent, *path.parent.parents) if not each.exists()]
-            fresh += missing
-            path.parent.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise ExportError(f"{error.filename} could not be made: {error.strerror}") from error
+    for path, _ in files:
+        fresh += make_folder(path.parent)
     try:
         write_all_whole(files)
     except BaseException:
@@ -335,6 +360,20 @@ def _write(files: Sequence[tuple[Path, Callable[[BinaryIO], None]]]) -> None:
             with contextlib.suppress(OSError):
                 folder.rmdir()
         raise
+
+
+def make_folder(folder: Path) -> list[Path]:
+    """Make a folder and those above it; return those that were not there, the innermost first.
+
+    Raises:
+        ExportError: naming what could not be made.
+    """
+    missing = [each for each in (folder, *folder.parents) if not each.exists()]
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise ExportError(f"{error.filename} could not be made: {error.strerror}") from error
+    return missing
 
 
 def _layer(layer: Layer) -> dict[str, Any]:
@@ -369,7 +408,7 @@ def warnings(recipe: Recipe, artwork: Artwork) -> list[str]:
     used = {name for _, placement in recipe.placements() for name in placement.motifs}
     drawn = {layer.ink.name for layer in artwork.layers}
     found = [f'motif "{name}" is placed nowhere' for name in recipe.motif if name not in used]
-    found += [f'motif "{name}": {note}' for name, each in _drawings(recipe) for note in each.notes]
+    found += [f'motif "{name}": {note}' for name, each in drawings_of(recipe) for note in each.notes]
     if not recipe.border:
         found += [f'ink "{name}" draws nothing' for name in recipe.ink if name not in drawn]
     for number, output in enumerate(recipe.output):

@@ -17,7 +17,8 @@ from click.testing import Result
 
 import batik_vector
 from batik_vector import export
-from batik_vector.command.cli import FORMATS, KINDS, cli
+from batik_vector.command.cli import KINDS, cli
+from batik_vector.command.options import FORMATS
 from batik_vector.command.starters import STARTERS
 from batik_vector.compiling.compiler import inspect
 from batik_vector.recipe.outputs import OUTPUTS

@@ -103,18 +103,42 @@ def full_paths(tables: dict[str, Any], path: Path) -> list[Path]:
     if EVERY in path:
         return _each(tables, path)
     if path[0] in _roots() or path[0] in tables:
-        return [path]
+        return [_with_indices(tables, path)]
     found = [(*at, name) for at, table in _inner(tables, ()) for name in table]
     found = [each for each in found if _ends(each, path)]
     if not found and len(path) > 1:
         # What is not written yet goes into the one table that is called so.
         found = [(*at, path[-1]) for at, _ in _inner(tables, ()) if _ends(at, path[:-1])]
     if len(found) > 1:
-        some = ", ".join(map(dotted, found[:MOST_NAMED])) + (", …" if len(found) > MOST_NAMED else "")
-        every = {tuple(EVERY if isinstance(part, int) else part for part in each) for each in found}
-        ways = f", or all of them as {dotted(every.pop())}" if len(every) == 1 else ""
-        raise _Astray(path, f"may be any of {some}: expected one of them in full{ways}")
+        raise _ambiguous(path, found)
     return found or [path]
+
+
+def _with_indices(tables: dict[str, Any], path: Path) -> Path:
+    """Return a path with the indices of lists that have one member alone."""
+    node: Any = tables
+    full: list[str | int] = []
+    for depth, part in enumerate(path):
+        if isinstance(node, list) and isinstance(part, str) and not part.isdigit() and node:
+            if len(node) > 1:
+                raise _ambiguous(path, [(*full, index, *path[depth:]) for index in range(len(node))])
+            full.append(0)
+            node = node[0]
+        full.append(part)
+        known = isinstance(node, dict) and part in node
+        node = node[part] if known else node[part] if _is_index(node, part) else None
+    return tuple(full)
+
+
+def _is_index(node: Any, part: str | int) -> bool:
+    return isinstance(node, list) and isinstance(part, int) and part < len(node)
+
+
+def _ambiguous(path: Path, found: Sequence[Path]) -> _Astray:
+    some = ", ".join(map(dotted, found[:MOST_NAMED])) + (", …" if len(found) > MOST_NAMED else "")
+    every = {tuple(EVERY if isinstance(part, int) else part for part in each) for each in found}
+    ways = f", or all of them as {dotted(every.pop())}" if len(every) == 1 else ""
+    return _Astray(path, f"may be any of {some}: expected one of them in full{ways}")
 
 
 def _each(tables: dict[str, Any], path: Path) -> list[Path]:

@@ -53,6 +53,16 @@ def test_what_begins_at_the_root_is_never_looked_for_elsewhere() -> None:
     assert changed("tile.size=3")["tile"] == {"size": 3}
 
 
+def test_the_index_of_a_lone_member_may_be_left_out() -> None:
+    text = TEXT.partition('[[place]]\nmotif = "small"')[0]
+    _, tables = overridden(text, tomllib.loads(text), [parse_override("place.width=3")])
+    assert tables["place"] == [{"motif": "big", "layout": {"kind": "julian", "dist": 4}, "width": 3}]
+    with pytest.raises(
+        RecipeError, match=r"may be any of place\[0\]\.width.*all of them as place\[\*\]\.width"
+    ):
+        changed("place.width=3")
+
+
 def test_where_several_can_be_meant_all_are_named() -> None:
     with pytest.raises(
         RecipeError,

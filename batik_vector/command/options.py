@@ -1,0 +1,52 @@
+"""Options that several commands have."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+
+import click
+
+from batik_vector.errors import unknown_name
+
+FORMATS = ("svg", "pdf", "dxf", "png")
+"""As in :data:`batik_vector.export.FORMATS`, which a test compares."""
+
+
+def format_names(_ctx: click.Context, _param: click.Parameter, texts: Sequence[str]) -> list[str]:
+    """Return the names of formats, given one by one or parted by commas."""
+    names = [name.strip().lower() for text in texts for name in text.split(",") if name.strip()]
+    for name in names:
+        if name not in FORMATS:
+            raise click.BadParameter(unknown_name(name, FORMATS, "format"))
+    return names
+
+
+def _workers(_ctx: click.Context, _param: click.Parameter, number: int) -> int:
+    """Return how many processes work: 0 stands for one on each core."""
+    if number:
+        return number
+    try:
+        return len(os.sched_getaffinity(0))
+    except AttributeError:
+        return os.cpu_count() or 1
+
+
+recipes_argument = click.argument("recipes", nargs=-1, required=True, metavar="RECIPE…")
+set_option = click.option(
+    "--set",
+    "overrides",
+    multiple=True,
+    metavar="KEY=VALUE",
+    help="Set a value, as in petal.count=12, place[0].width='200 mm' or place[*].layout.dist=3.",
+)
+json_option = click.option("--json", "as_json", is_flag=True, help="Print one report for machines on stdout.")
+jobs_option = click.option(
+    "-j",
+    "--jobs",
+    type=click.IntRange(0, 256),
+    default=1,
+    callback=_workers,
+    metavar="N",
+    help="Processes that work at a time; 0 is one for each core.  [default: 1]",
+)

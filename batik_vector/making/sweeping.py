@@ -1,0 +1,268 @@
+"""Sweeps: many variants of one recipe, each to files of its own, on all cores and taken up again where left.
+
+A manifest beside the files says what has been made, a line for each variant as it is done; a variant stands
+there with a key made of everything that its files hang on. So a sweep that was killed goes on where it
+stopped, and one that is asked for again makes nothing twice.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any, BinaryIO
+
+from batik_vector._version import __version__
+from batik_vector.artwork import Page
+from batik_vector.errors import ExportError, RecipeError
+from batik_vector.export.files import write_whole
+from batik_vector.making.jobs import Job, check_folder, drawings_of, make_folder, planned, run
+from batik_vector.making.pool import Outcome, outcomes
+from batik_vector.making.thumbnails import Thumbnail, thumbnail
+from batik_vector.making.variants import Variant
+from batik_vector.recipe.loading import read_recipe
+from batik_vector.values import frozen
+
+
+@frozen
+class Made:
+    """A variant that is made: its files with the digests of their bytes, a report, and its picture."""
+
+    variant: Variant
+    files: tuple[tuple[str, str], ...]
+    report: dict[str, Any]
+    picture: Thumbnail | None = None
+    fresh: bool = True
+
+
+@frozen
+class Making:
+    """What makes the files of a variant: called in a worker, with nothing but plain values.
+
+    Args:
+        source: what the recipe is called in faults.
+        text: the recipe, read once, so that all variants are of one state of it.
+        recipe_folder: where the drawings stand that it names.
+        folder: where files go.
+        overrides: set in all variants.
+        formats: as for :func:`~batik_vector.making.jobs.planned`.
+        pictures: whether a picture of each is wanted.
+    """
+
+    source: str
+    text: str
+    recipe_folder: str
+    folder: str
+    overrides: tuple[str, ...] = ()
+    formats: tuple[str, ...] = ()
+    pictures: bool = False
+
+    def __call__(self, variant: Variant) -> Made:
+        """Make the files of a variant, all of them or none.
+
+        Raises:
+            BatikError: where the variant is none that can be made.
+        """
+        job = self._job(variant)
+        pictures: list[Thumbnail] = []
+
+        def look(page: Page) -> None:
+            if self.pictures and not pictures:
+                pictures.append(thumbnail(page))
+
+        report = run(job, lambda stage: None, look)
+        files = tuple((path.name, _digest(path)) for path, _ in job.files)
+        return Made(variant, files, report, pictures[0] if pictures else None)
+
+    def _job(self, variant: Variant) -> Job:
+        changes = (*self.overrides, *variant.changes)
+        recipe = read_recipe(self.text, self.source, changes, self.recipe_folder)
+        job = Job(self.source, recipe, changes, stem=variant.name)
+        return planned([job], Path(self.folder), self.formats)[0]
+
+    def key(self, variant: Variant, drawings: str = "") -> str:
+        """Return what the files of a variant hang on, as a digest."""
+        told = json.dumps(
+            [__version__, self.text, drawings, self.overrides, self.formats, variant.name, variant.changes]
+        )
+        return hashlib.sha256(told.encode()).hexdigest()[:32]
+
+
+def _digest(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+class Manifest:
+    """The file that says what a sweep has made: a line of JSON for each variant, found again by its key.
+
+    The lines stay on the disk, for pictures are large and variants many.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self._places: dict[str, tuple[int, int]] = {}
+        self._end = 0
+        if path.is_file():
+            with path.open("rb") as file:
+                for text in file:
+                    if (key := _key_of(text)) is not None:
+                        self._places[key] = self._end, len(text)
+                    self._end += len(text)
+
+    def line(self, key: str) -> dict[str, Any] | None:
+        """Return the line with a key."""
+        if key not in self._places:
+            return None
+        found: dict[str, Any] = json.loads(self._text(key))
+        return found
+
+    def _text(self, key: str) -> bytes:
+        start, length = self._places[key]
+        with self.path.open("rb") as file:
+            file.seek(start)
+            return file.read(length)
+
+    def made(self, variant: Variant, key: str, pictures: bool) -> Made | None:
+        """Return a variant that has been made, if its files are still what they were."""
+        line = self.line(key)
+        if line is None or (pictures and "picture" not in line):
+            return None
+        files = tuple((str(name), str(digest)) for name, digest in line["files"])
+        for name, digest in files:
+            place = self.path.parent / name
+            if not place.is_file() or _digest(place) != digest:
+                return None
+        return Made(variant, files, line["report"], picture_in(line), fresh=False)
+
+    def add(self, made: Made, key: str) -> None:
+        """Note a variant as it is done.
+
+        Raises:
+            ExportError: where that cannot be written.
+        """
+        text = (json.dumps(_line(made, key)) + "\n").encode()
+        try:
+            with self.path.open("ab") as file:
+                # What a kill cut short is ended, and passed over.
+                if self._end and self._last() != b"\n":
+                    self._end += file.write(b"\n")
+                self._places[key] = self._end, len(text)
+                self._end += file.write(text)
+        except OSError as error:
+            raise ExportError(f"{self.path} could not be written: {error.strerror or error}") from error
+
+    def _last(self) -> bytes:
+        with self.path.open("rb") as file:
+            file.seek(self._end - 1)
+            return file.read()
+
+    def settle(self, keys: Sequence[str]) -> None:
+        """Write the lines of a whole sweep in the order of its variants: the same bytes however it went."""
+
+        def write(sink: BinaryIO) -> None:
+            for key in keys:
+                if key in self._places:
+                    sink.write(self._text(key))
+
+        if any(key in self._places for key in keys):
+            write_whole(self.path, write)
+
+
+def _key_of(text: bytes) -> str | None:
+    """Return the key of a line that is whole."""
+    try:
+        line = json.loads(text)
+    except ValueError:
+        return None
+    whole = isinstance(line, dict) and {"key", "files", "report"} <= line.keys()
+    return str(line["key"]) if whole else None
+
+
+def picture_in(line: Mapping[str, Any]) -> Thumbnail | None:
+    """Return the picture that a line of a manifest holds."""
+    return Thumbnail(**line["picture"]) if "picture" in line else None
+
+
+def _line(made: Made, key: str) -> dict[str, Any]:
+    variant, picture = made.variant, made.picture
+    line: dict[str, Any] = {
+        "key": key,
+        "name": variant.name,
+        "changes": list(variant.changes),
+        "files": [list(each) for each in made.files],
+        "report": {name: made.report[name] for name in ("cell_mm", "vertices") if name in made.report},
+    }
+    if picture is not None:
+        line["picture"] = {name: getattr(picture, name) for name in ("width", "height", "cloth", "marks")}
+    return line
+
+
+@frozen
+class Sweep:
+    """A sweep that is planned: its variants, what makes them, and the manifest beside their files."""
+
+    making: Making
+    variants: tuple[Variant, ...]
+    title: str = ""
+    drawings: str = ""
+
+    @property
+    def manifest(self) -> Path:
+        """Where it is noted what has been made."""
+        return Path(self.making.folder) / f"{Path(self.making.source).stem}-sweep.jsonl"
+
+    def run(self, workers: int = 1) -> Iterator[Outcome[Variant, Made]]:
+        """Make what is not there yet; yield each variant as it is done, those that were there first.
+
+        Raises:
+            ExportError: where the manifest cannot be written.
+        """
+        manifest = Manifest(self.manifest)
+        keys = [self.making.key(variant, self.drawings) for variant in self.variants]
+        todo = []
+        for variant, key in zip(self.variants, keys, strict=True):
+            found = manifest.made(variant, key, self.making.pictures)
+            if found is None:
+                todo.append(variant)
+            else:
+                yield Outcome(variant, found)
+        if todo:
+            make_folder(self.manifest.parent)
+        for outcome in outcomes(self.making, todo, min(workers, len(todo))):
+            if outcome.result is not None:
+                manifest.add(outcome.result, keys[outcome.task.number])
+            yield outcome
+        manifest.settle(keys)
+
+    def pictures(self) -> Iterator[tuple[Variant, Thumbnail | None]]:
+        """Yield all variants with their pictures, once they are made; None for those that could not be."""
+        manifest = Manifest(self.manifest)
+        for variant in self.variants:
+            line = manifest.line(self.making.key(variant, self.drawings))
+            yield variant, None if line is None else picture_in(line)
+
+
+def planned_sweep(making: Making, variants: Sequence[Variant]) -> Sweep:
+    """Return a sweep whose recipe has been read, and whose keys lead somewhere.
+
+    Raises:
+        RecipeError: where the recipe is wrong, or the first variant or the last.
+        ExportError: where the folder cannot be written to.
+    """
+    check_folder(Path(making.folder))
+    recipe = read_recipe(making.text, making.source, making.overrides, making.recipe_folder)
+    ends = dict.fromkeys((variants[0], variants[-1]))
+    faults = [fault for variant in ends for fault in _faults(making, variant)]
+    if faults:
+        raise RecipeError(list(dict.fromkeys(faults)))
+    drawings = json.dumps([(name, each.text) for name, each in drawings_of(recipe)])
+    return Sweep(making, tuple(variants), recipe.title, hashlib.sha256(drawings.encode()).hexdigest())
+
+
+def _faults(making: Making, variant: Variant) -> Sequence[Any]:
+    try:
+        read_recipe(making.text, making.source, (*making.overrides, *variant.changes), making.recipe_folder)
+    except RecipeError as error:
+        return error.faults
+    return ()

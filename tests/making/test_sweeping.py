@@ -1,0 +1,204 @@
+"""Sweeps: the same bytes however they went, nothing made twice, and a sheet that shows all."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
+import pikepdf
+import pytest
+from click.testing import CliRunner, Result
+from PIL import Image
+
+from batik_vector.command.cli import cli
+from batik_vector.command.sweeps import SHEET_FORMATS
+from batik_vector.making import sheets
+from tests.thorough import examples, long
+
+RECIPE = """
+title = "Dots"
+[ink.wax]
+[motif.dot]
+kind = "rosette"
+elements = [ { curve = { kind = "circle", radius = 1 }, count = 3, radius = 2 } ]
+[[place]]
+motif = "dot"
+width = "20 mm"
+[tile]
+size = ["40 mm", "40 mm"]
+"""
+
+
+@pytest.fixture
+def desk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    Path("dots.toml").write_text(RECIPE)
+    return tmp_path
+
+
+def called(*words: str) -> Result:
+    return CliRunner().invoke(cli, ["sweep", "dots.toml", *words])
+
+
+def good(*words: str) -> str:
+    result = called(*words)
+    assert result.exit_code == 0, result.output
+    return result.output
+
+
+def held(folder: str) -> dict[str, bytes]:
+    return {path.name: path.read_bytes() for path in Path(folder).iterdir()}
+
+
+def test_every_combination_is_a_file_whose_name_says_it(desk: Path) -> None:
+    assert "6 variants made" in good("--vary", "elements.count=3,4,5", "--vary", "place.width=10mm:20mm:2")
+    names = sorted(path.name for path in Path("dots-sweep").glob("*.svg"))
+    assert names == [f"dots_count-{count}_width-{width}-mm.svg" for count in (3, 4, 5) for width in (10, 20)]
+    recompiled = CliRunner().invoke(cli, ["compile", "dots-sweep/" + names[0], "-o", "again"])
+    assert recompiled.exit_code == 0
+    assert (Path("again") / names[0]).read_bytes() == (Path("dots-sweep") / names[0]).read_bytes()
+
+
+def test_on_several_cores_and_taken_up_again_the_bytes_are_the_same(desk: Path) -> None:
+    asked = ("--vary", "elements.count=3:8:6", "-f", "svg,dxf", "--sheet")
+    good(*asked, "-o", "one")
+    good(*asked, "-o", "two", "-j", "2")
+    assert held("one") == held("two")
+    lines = Path("two/dots-sweep.jsonl").read_bytes().splitlines(keepends=True)
+    # As a kill leaves it: half a line, a file that is not noted, and one whose bytes are others.
+    Path("two/dots-sweep.jsonl").write_bytes(b"".join(lines[:3]) + lines[3][:40])
+    Path("two/dots_count-4.svg").write_bytes(b"spoilt")
+    assert "4 variants made, 2 were there" in good(*asked, "-o", "two")
+    assert held("one") == held("two")
+    assert "0 variants made, 6 were there" in good(*asked, "-o", "two")
+
+
+def test_another_recipe_is_made_anew(desk: Path) -> None:
+    asked = ("--vary", "elements.count=3,4")
+    good(*asked)
+    Path("dots.toml").write_text(RECIPE.replace("radius = 2", "radius = 2.5"))
+    assert "2 variants made" in good(*asked)
+    assert len(Path("dots-sweep/dots-sweep.jsonl").read_text().splitlines()) == 2
+
+
+def test_what_cannot_be_made_is_told_at_the_end_and_keeps_back_nothing(desk: Path) -> None:
+    asked = ("--vary", "elements.count=3,0,4")
+    missing = called(*asked)
+    assert missing.exit_code == 2
+    assert "dots_count-0: dots.toml:6: motif.dot.elements[0].count" in missing.stderr
+    assert "2 variants made, 1 could not be made" in missing.stderr
+    assert Path("dots-sweep/dots_count-4.svg").exists()
+    report = json.loads(called(*asked, "--json").stdout)
+    assert [each["name"] for each in report["failed"]] == ["dots_count-0"]
+    assert [each["files"] for each in report["made"]] == [["dots_count-3.svg"], ["dots_count-4.svg"]]
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (("--vary", "elements.cuont=3,4"), "count"),
+        (("--vary", "elements.count=-3,-2"), "expected 1 to 1000"),
+        (("--vary", "elements.count=1:2000:2000"), "expected 1 to 1000"),
+        (("--vary", "seed=0:1:100000", "--vary", "elements.count=1:1000:1000"), "100,000,000 variants"),
+        ((), "nothing is varied"),
+        (
+            ("--vary", "elements.count=3,4", "--sheet", "--paper", "A44"),
+            'unknown paper "A44": did you mean "A4"?',
+        ),
+        (("--vary", "elements.count=3,4", "--sheet", "--sheet-format", "jpg"), "jpg"),
+        (("--vary", "elements.count=3,4", "-o", "dots.toml"), "is a file, expected a folder"),
+    ],
+)
+def test_wrong_calls_are_told_and_write_nothing(desk: Path, words: tuple[str, ...], told: str) -> None:
+    result = called(*words)
+    assert result.exit_code == 2, result.output
+    assert told in result.output
+    assert sorted(os.listdir()) == ["dots.toml"]
+
+
+def test_a_dry_run_writes_nothing(desk: Path) -> None:
+    assert "1,000 variants; nothing is written" in good("--vary", "elements.count=1:1000:1000", "--dry-run")
+    assert sorted(os.listdir()) == ["dots.toml"]
+
+
+def test_a_sheet_shows_every_variant_on_as_many_pages_as_it_takes(desk: Path) -> None:
+    good(
+        "--vary",
+        "elements.count=1:100:100",
+        "--sheet",
+        "--sheet-format",
+        ",".join(SHEET_FORMATS),
+        "--paper",
+        "A5",
+    )
+    drawn = sorted(Path("dots-sweep").glob("dots-sheet-*.svg"))
+    namespace = "{http://www.w3.org/2000/svg}"
+    pictures = [len(ET.parse(path).getroot().findall(f"{namespace}svg")) for path in drawn]
+    assert sum(pictures) == 100
+    with pikepdf.open("dots-sweep/dots-sheet.pdf") as pdf:
+        assert len(pdf.pages) == len(drawn) > 1
+        width, height = (float(side) * 25.4 / 72 for side in list(pdf.pages[0].mediabox)[2:])
+        assert (round(width), round(height)) == sheets.PAPERS["A5"]
+    with Image.open("dots-sweep/dots-sheet-1.png") as picture:
+        assert picture.size[0] == round(148 / 25.4 * sheets.DPI)
+        assert len(picture.convert("L").getcolors() or ()) > 3
+    assert SHEET_FORMATS == sheets.FORMATS
+
+
+@pytest.mark.parametrize("count", [1, 2, 7, 20, 42, 200])
+@pytest.mark.parametrize("shape", [0.2, 0.7, 1.0, 1.7])
+def test_pictures_stay_on_the_page_and_apart(count: int, shape: float) -> None:
+    for paper, (width, height) in sheets.PAPERS.items():
+        page = sheets.plan(count, shape, 2, paper)
+        across = 2 * page.margin + page.columns * page.breadth + (page.columns - 1) * page.gap
+        up = 2 * page.margin + page.head + page.rows * page.pitch - page.gap
+        assert across <= width + 1e-6
+        assert up <= height + 1e-6
+        assert page.gap >= 3
+        assert page.breadth >= 20
+
+
+@long
+def test_killed_at_any_moment_it_goes_on_to_the_same_bytes(desk: Path) -> None:
+    asked = ("--vary", "elements.count=3:40:38")
+    good(*asked, "-o", "whole")
+    command = [sys.executable, "-m", "batik_vector", "sweep", "dots.toml", *asked, "-o", "killed", "-j", "2"]
+    for turn in range(examples(2, 20)):
+        begun = subprocess.Popen(command, stderr=subprocess.DEVNULL)
+        time.sleep(0.9 + 0.07 * turn)
+        begun.send_signal(signal.SIGKILL)
+        begun.wait()
+    time.sleep(0.5)
+    assert (
+        not [name for name in os.listdir("killed") if not name.startswith("dots")]
+        if Path("killed").exists()
+        else True
+    )
+    good(*asked, "-o", "killed")
+    assert held("whole") == held("killed")
+
+
+def test_many_recipes_are_compiled_on_several_cores_by_a_pattern(desk: Path) -> None:
+    for name in ("a1", "a2", "b1"):
+        Path(f"{name}.toml").write_text(RECIPE.replace("Dots", name))
+    Path("a3.toml").write_text(RECIPE.replace('width = "20 mm"', 'width = "20 mm"\nscale = 3'))
+    result = CliRunner().invoke(cli, ["compile", "a?.toml", "b1.toml", "-o", "one"])
+    assert result.exit_code == 2  # a3 is wrong, and nothing is written
+    Path("a3.toml").unlink()
+    for workers in ("1", "2"):
+        result = CliRunner().invoke(
+            cli, ["compile", "a?.toml", "b1.toml", "-o", workers, "-j", workers, "--json"]
+        )
+        assert result.exit_code == 0, result.output
+        assert len(json.loads(result.stdout)["recipes"]) == 3
+    assert held("1") == held("2")
+    assert sorted(held("1")) == ["a1.svg", "a2.svg", "b1.svg"]
+    missing = CliRunner().invoke(cli, ["compile", "c*.toml"])
+    assert "c*.toml: no such file" in missing.output
+    assert missing.exit_code == 2
