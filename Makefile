@@ -54,10 +54,10 @@ format: $(TOOLS_READY) ## mend the style
 bench: $(TOOLS_READY) $(PEERS_READY) ## time everything beside its peers, and write the tables into benchmarks/README.md
 	$(PY) -m benchmarks.run
 
-golden: $(TOOLS_READY) ## draw the pictures of samples and starters and the gallery again
+golden: $(TOOLS_READY) ## draw the pictures of samples and starters and the gallery again, and measure them for the library
 	$(PY) -m tools.golden
 
-docs: $(TOOLS_READY) ## write docs/recipe.md and docs/architecture.md from the program
+docs: $(TOOLS_READY) ## write docs/recipe.md, docs/architecture.md and the features in docs/library.md from the program
 	$(PY) tools/reference.py
 	$(PY) -m tools.house
 

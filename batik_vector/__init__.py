@@ -29,12 +29,19 @@ if TYPE_CHECKING:
     from batik_vector.errors import ExportError as ExportError
     from batik_vector.errors import Fault as Fault
     from batik_vector.errors import GeometryError as GeometryError
+    from batik_vector.errors import LibraryError as LibraryError
+    from batik_vector.errors import MissingLibraryError as MissingLibraryError
     from batik_vector.errors import RecipeError as RecipeError
     from batik_vector.errors import SeamError as SeamError
     from batik_vector.errors import TooLargeError as TooLargeError
     from batik_vector.errors import TornRingError as TornRingError
     from batik_vector.errors import UnknownNameError as UnknownNameError
     from batik_vector.errors import UnsupportedByFormatError as UnsupportedByFormatError
+    from batik_vector.export import PngOptions as PngOptions
+    from batik_vector.export import Profile as Profile
+    from batik_vector.export import SvgOptions as SvgOptions
+    from batik_vector.export import render as render
+    from batik_vector.export import write_all_whole as write_all_whole
     from batik_vector.export import write_artwork as write_artwork
     from batik_vector.recipe.border import BorderSpec as BorderSpec
     from batik_vector.recipe.border import RailSpec as RailSpec
@@ -60,6 +67,7 @@ _HOMES = {
         "ExportError",
         "Fault",
         "GeometryError",
+        "LibraryError",
         "MissingLibraryError",
         "RecipeError",
         "SeamError",
@@ -68,7 +76,14 @@ _HOMES = {
         "UnknownNameError",
         "UnsupportedByFormatError",
     ),
-    "batik_vector.export": ("write_artwork",),
+    "batik_vector.export": (
+        "PngOptions",
+        "Profile",
+        "SvgOptions",
+        "render",
+        "write_all_whole",
+        "write_artwork",
+    ),
     "batik_vector.recipe.model": ("ClothSpec", "InkSpec", "Placement", "Recipe", "TileSpec", "YardageSpec"),
     "batik_vector.recipe.motif": ("Element", "Flower", "Rosette"),
     "batik_vector.recipe.loading": ("load_recipe", "read_recipe"),

@@ -7,6 +7,7 @@
     │ ├ TornRingError                 a map would tear a ring at a branch cut or a pole
     │ └ TooLargeError                 the work would not fit: says how large it would be
     ├ SeamError                       opposite edges of a tile would not meet
+    ├ LibraryError                    a library that cannot be opened, read or changed as asked
     └ ExportError
       ├ UnsupportedByFormatError      the format cannot hold what was asked
       └ MissingLibraryError           the format needs what this system lacks
@@ -75,6 +76,10 @@ class SeamError(BatikError):
     """Opposite edges of a tile that would not meet."""
 
     exit_code = 1
+
+
+class LibraryError(BatikError):
+    """A library of patterns that cannot be opened, read or changed as asked."""
 
 
 class ExportError(BatikError):

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from PIL import Image, ImageOps
 
+from batik_vector.library import included
 from tools import golden
 from tools.starters_sheet import SHEET
 
@@ -39,6 +40,16 @@ def test_the_gallery_is_up_to_date() -> None:
 @pytest.mark.clients
 def test_the_sheet_of_the_starters_is_up_to_date() -> None:
     assert not golden.sheet_is_stale(), MEND
+
+
+@pytest.mark.clients
+def test_what_the_library_knows_of_samples_and_starters_is_up_to_date() -> None:
+    assert not golden.included_is_stale([golden.sample(path) for path in golden.samples()]), MEND
+
+
+def test_no_sample_or_starter_has_changed_since_the_library_measured_it() -> None:
+    measured = {name: digest for name, (digest, _) in included.known().items()}
+    assert measured == {name: included.digest(path) for name, path in included.paths()}, MEND
 
 
 def test_the_sheet_of_the_starters_is_small() -> None:

@@ -24,6 +24,8 @@ from PIL import Image, ImageChops
 
 from batik_vector import Artwork, Recipe, compile_cloth, compile_recipe, load_recipe
 from batik_vector.export import PngOptions, render
+from batik_vector.library import included
+from batik_vector.library.measuring import measured
 from batik_vector.recipe.outputs import PngOutput
 from batik_vector.tiling.cloth.field import repeated
 from batik_vector.tiling.cloth.yardage import Yardage
@@ -201,6 +203,23 @@ def sheet_is_stale() -> bool:
     return not SHEET.exists() or not same(SHEET.read_bytes(), sheet())
 
 
+def included_page(found: list[Sample]) -> str:
+    """Return what is measured of samples and starters, for the library to find them by."""
+    pages = {each.path: each.page for each in found}
+    features = {}
+    for name, path in included.paths():
+        page = pages.get(path)
+        tile = page if isinstance(page, Artwork) else None
+        features[name] = dict(measured(load_recipe(path), tile, pictures=False).features)
+    return included.written(features)
+
+
+def included_is_stale(found: list[Sample]) -> bool:
+    """Return whether the library knows something else of samples and starters than what is measured."""
+    kept = included.MEASURED
+    return not kept.exists() or kept.read_text(encoding="utf-8") != included_page(found)
+
+
 def _packed(picture: Image.Image) -> Iterator[bytes]:
     """Yield the picture as PNG files, the next always smaller than the last."""
     for colours in (128, 64, 32, 16, 8):
@@ -238,6 +257,11 @@ def main() -> int:
         print(f"{SHEET.name:<32} {'stale' if only_check else 'drawn'}")
         if not only_check:
             SHEET.write_bytes(sheet())
+    if included_is_stale(found):
+        wrong += 1
+        print(f"{included.MEASURED.name:<32} {'stale' if only_check else 'written'}")
+        if not only_check:
+            included.MEASURED.write_text(included_page(found), encoding="utf-8")
     for kept in sorted({*SAMPLES.glob("*.png")} - {each.picture_path for each in found}):
         wrong += 1
         print(f"{kept.name:<32} belongs to no recipe")

@@ -41,11 +41,16 @@ FLOORS: Floors = _floors(
     "recipe certificate",
     "compiling drafting",
     "making",
+    "__init__",
+    "library",
     "command",
-    "__init__ __main__",
+    "__main__",
 )
 """Rooms of the package, the ground floor first: each may look at those below it, and at nothing else. So
 rooms on one floor never meet: tiling and export, geometry and artwork."""
+
+STRANGERS = ("library",)
+"""Rooms that see the public names alone, ``__init__``'s, as a stranger's program would."""
 
 WINGS: dict[str, Floors] = {
     "tiling": _floors("layouts", "torus", "welding tossing", "symmetry cloth borders"),

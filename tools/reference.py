@@ -1,5 +1,7 @@
 """Write docs/recipe.md from the program itself: every key, its bounds, its default and its help.
 
+So is the table of features in docs/library.md.
+
 Bounds and help are said once, beside the attribute they belong to; this page is read off them.
 ``python tools/reference.py`` writes it, ``--check`` tells whether it is stale.
 """
@@ -25,6 +27,7 @@ from batik_vector.fields import HIDDEN, Between, LengthUnit, OneOf, Says, Severa
 from batik_vector.geometry.curves import CURVES, YAxis
 from batik_vector.geometry.maps import VARIATIONS
 from batik_vector.geometry.regions import FillRule
+from batik_vector.library.features import FEATURES
 from batik_vector.recipe.border import BorderSpec, Corner, Ends, Facing, RailSpec
 from batik_vector.recipe.drawing import Dressing, Svg
 from batik_vector.recipe.model import ClothSpec, InkSpec, Placement, Recipe, YardageSpec
@@ -277,16 +280,44 @@ def page() -> str:
     return "\n".join(lines).rstrip() + "\n"
 
 
+LIBRARY = PAGE.with_name("library.md")
+BEGIN, END = "<!-- features: written by `make docs` -->", "<!-- end of features -->"
+
+
+def library_page() -> str:
+    """Return the page on the library, with its table of features."""
+    head, _, rest = LIBRARY.read_text(encoding="utf-8").partition(BEGIN)
+    lines = ["| feature | what is measured | a difference of 1 is |", "| --- | --- | --- |"]
+    for name, feature in FEATURES.items():
+        if not feature.unit:
+            eye = "not compared"
+        elif feature.kind is str:
+            eye = "another word"
+        elif feature.by_factor:
+            eye = f"a factor of {2**feature.unit:.3g}"
+        else:
+            eye = f"{feature.unit:g}"
+        says = f"{feature.says}: {', '.join(feature.words)}" if feature.words else feature.says
+        lines.append(f"| `{name}` | {says} | {eye} |")
+    table = "\n".join(lines)
+    return f"{head}{BEGIN}\n\n{table}\n\n{END}{rest.partition(END)[2]}"
+
+
 def main() -> int:
-    """Write the page, or say whether it is stale."""
+    """Write the pages, or say which of them are stale."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--check", action="store_true", help="write nothing; exit 1 when the page is stale")
-    text = page()
+    parser.add_argument("--check", action="store_true", help="write nothing; exit 1 when a page is stale")
+    made = {PAGE: page(), LIBRARY: library_page()}
     if parser.parse_args().check:
-        stale = not PAGE.exists() or PAGE.read_text(encoding="utf-8") != text
-        print(f"{PAGE.name} is stale: run make docs" if stale else f"{PAGE.name} is up to date")
-        return int(stale)
-    PAGE.write_text(text, encoding="utf-8")
+        stale = [
+            path.name
+            for path, text in made.items()
+            if not path.exists() or path.read_text(encoding="utf-8") != text
+        ]
+        print(*(f"{name} is stale: run make docs" for name in stale), sep="\n")
+        return 1 if stale else 0
+    for path, text in made.items():
+        path.write_text(text, encoding="utf-8")
     return 0
 
 

@@ -28,7 +28,7 @@ from batik_vector.importing.svg import Reading, read_svg
 from batik_vector.making.jobs import Job, made, read_jobs, warnings
 from batik_vector.recipe.loading import read_recipe
 from batik_vector.recipe.model import Recipe
-from batik_vector.recipe.reading.sources import COMPILED
+from batik_vector.recipe.reading.sources import COMPILED, is_compiled, scheme_of, stem_of
 from batik_vector.tiling.symmetry.groups import group
 from batik_vector.tiling.symmetry.machine_fit import per_cent
 from batik_vector.tiling.symmetry.repeats import parse_repeat, repeat_of
@@ -114,6 +114,8 @@ def _fault(source: str, words: str) -> RecipeError:
 def _is_drawing(source: str) -> bool:
     """Whether a file is an SVG, by its name or by how it begins."""
     path = Path(source)
+    if scheme_of(source)[0]:
+        return False
     if path.is_dir():
         raise _fault(source, f'is a folder, expected files, such as "{path / "*.svg"}"')
     if path.suffix.lower() == ".svg":
@@ -134,7 +136,7 @@ def _check_recipe(source: str, overrides: Sequence[str], wishes: Wishes, tell: T
     try:
         (job,) = read_jobs([source], overrides)
     except RecipeError as error:
-        if Path(source).suffix.lower() in COMPILED and any("no recipe" in str(f) for f in error.faults):
+        if is_compiled(source) and any("no recipe" in str(f) for f in error.faults):
             raise _fault(source, "carries no recipe, and only an SVG can be checked without one") from error
         raise
     artwork = made(job, tell)
@@ -142,7 +144,7 @@ def _check_recipe(source: str, overrides: Sequence[str], wishes: Wishes, tell: T
     certificate = _certified(source, artwork, wishes, _asked(job.recipe))
     facts = inspect(artwork)
     notes = _left_aside(wishes)
-    if Path(source).suffix.lower() in COMPILED:
+    if is_compiled(source):
         notes.append("the recipe that it carries was checked, not what the file draws")
     return _found(job, artwork, certificate, facts, checked="recipe", notes=notes)
 
@@ -314,7 +316,7 @@ def pointer_files(sources: Sequence[str], folder: Path) -> dict[str, Path]:
     places: dict[str, Path] = {}
     given = {os.path.realpath(source) for source in sources}
     for source in sources:
-        place = folder / f"{Path(source).stem}-check.svg"
+        place = folder / f"{stem_of(source)}-check.svg"
         if os.path.realpath(place) in given:
             raise _fault(source, f'its faults would be shown in "{place}", which is to be checked itself')
         if place in places.values():

@@ -17,6 +17,7 @@ import click
 
 from batik_vector._version import __version__
 from batik_vector.command.drawings import export_motif_command, import_command
+from batik_vector.command.library import library_command
 from batik_vector.command.options import (
     FORMATS,
     format_names,
@@ -91,8 +92,17 @@ class _Commands(click.Group):
 
 @click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(__version__, prog_name="batik-vector")
-def cli() -> None:
+@click.option(
+    "--library",
+    "library",
+    metavar="FILE",
+    help="Where library:NAME is looked up.  [default: that of BATIK_LIBRARY, or your own]",
+)
+def cli(library: str | None) -> None:
     """Compile batik patterns: a recipe goes in, repeatable tiles in true millimetres come out."""
+    if library:
+        # Processes that this one begins look there, too.
+        os.environ["BATIK_LIBRARY"] = library
 
 
 @cli.command("compile")
@@ -121,9 +131,9 @@ def compile_command(
 ) -> None:
     """Compile recipes to files.
 
-    A RECIPE is a TOML file, or an SVG, PDF, DXF or PNG that was compiled from one; "*" stands for any name.
-    The files of a recipe are written all or not at all, as DIR/NAME.SUFFIX, but for PNGs where the system
-    lacks what draws them.
+    A RECIPE is a TOML file, an SVG, PDF, DXF or PNG that was compiled from one, or library:NAME; "*" stands
+    for any name. The files of a recipe are written all or not at all, as DIR/NAME.SUFFIX, but for PNGs where
+    the system lacks what draws them.
     """
     from pathlib import Path
 
@@ -309,7 +319,7 @@ def new_command(name: str | None, kind: str | None, path: str | None, force: boo
     click.echo(f"{written} written. Next: batik-vector compile {written}", err=True)
 
 
-for _command in (sweep_command, import_command, export_motif_command):
+for _command in (sweep_command, import_command, export_motif_command, library_command):
     cli.add_command(_command)
 
 

@@ -134,13 +134,12 @@ def _planned(
     pictures: bool,
 ) -> tuple[Sweep, list[Axis]]:
     import os
-    from pathlib import Path
 
     from batik_vector.making.sweeping import Making, planned_sweep
     from batik_vector.making.variants import MOST, parse_axis, variants
-    from batik_vector.recipe.reading.sources import read_text
+    from batik_vector.recipe.reading.sources import read_text, stem_of
 
-    stem = Path(recipe).stem
+    stem = stem_of(recipe)
     making = Making(
         recipe,
         read_text(recipe),
@@ -209,8 +208,9 @@ def _sheet(planned: Sweep, axes: Sequence[Axis], formats: Sequence[str], paper: 
 
     from batik_vector.making.sheets import Entry, pages, plan, write_sheet
     from batik_vector.making.variants import short_names
+    from batik_vector.recipe.reading.sources import stem_of
 
-    stem = Path(planned.making.source).stem
+    stem = stem_of(planned.making.source)
     names = short_names([axis.key for axis in axes])
 
     def caption(variant: Variant) -> tuple[str, ...]:

@@ -22,7 +22,7 @@ from batik_vector.recipe.drawing import Svg
 from batik_vector.recipe.loading import load_recipe, located
 from batik_vector.recipe.model import OutputSpec, Recipe
 from batik_vector.recipe.outputs import OUTPUTS, Piece, PngOutput
-from batik_vector.recipe.reading.sources import COMPILED
+from batik_vector.recipe.reading.sources import is_compiled, stem_of
 from batik_vector.tiling.symmetry.machine_fit import pixel_advice
 from batik_vector.units import STEPS_PER_MM
 from batik_vector.values import frozen
@@ -155,8 +155,8 @@ def _unmet(job: Job, output: OutputSpec) -> Fault | None:
 
 
 def _file_name(job: Job, output: OutputSpec) -> str:
-    stem = job.stem or Path(job.source).stem
-    if not job.stem and Path(job.source).suffix.lower() in COMPILED:
+    stem = job.stem or stem_of(job.source)
+    if not job.stem and is_compiled(job.source):
         # A compiled file is called after its recipe and its output: kawung-print.pdf.
         endings = sorted((_ending(job.recipe, each) for each in job.recipe.output), key=len)
         stem = stem.removesuffix(next((end for end in reversed(endings) if stem.endswith(end)), ""))
@@ -211,7 +211,7 @@ def _check_place(path: Path, job: Job, drawings: Container[str]) -> None:
     if path.is_symlink() or path.is_dir():
         what = "a folder" if path.is_dir() and not path.is_symlink() else "a symbolic link"
         raise ExportError(f"{path} could not be written: it is {what}")
-    if job.overrides and path.exists() and os.path.samefile(path, job.source):
+    if job.overrides and path.exists() and os.path.exists(job.source) and path.samefile(job.source):
         raise ExportError(f"{path} would replace the file it is read from: choose another folder with -o")
 
 

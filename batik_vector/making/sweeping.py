@@ -22,6 +22,7 @@ from batik_vector.making.pool import Outcome, outcomes
 from batik_vector.making.thumbnails import Thumbnail, thumbnail
 from batik_vector.making.variants import Variant
 from batik_vector.recipe.loading import read_recipe
+from batik_vector.recipe.reading.sources import stem_of
 from batik_vector.values import frozen
 
 
@@ -210,7 +211,7 @@ class Sweep:
     @property
     def manifest(self) -> Path:
         """Where it is noted what has been made."""
-        return Path(self.making.folder) / f"{Path(self.making.source).stem}-sweep.jsonl"
+        return Path(self.making.folder) / f"{stem_of(self.making.source)}-sweep.jsonl"
 
     def run(self, workers: int = 1) -> Iterator[Outcome[Variant, Made]]:
         """Make what is not there yet; yield each variant as it is done, those that were there first.

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -18,25 +18,27 @@ from batik_vector.recipe.drawing import Svg
 from batik_vector.recipe.model import Recipe
 from batik_vector.recipe.reading.builder import UnsureError, built
 from batik_vector.recipe.reading.limits import MAX_DEPTH, deep_key, odd_numbers
-from batik_vector.recipe.reading.sources import MAX_TEXT, parted, read_text, with_carried
+from batik_vector.recipe.reading.sources import MAX_TEXT, parted, read_text, scheme_of, with_carried
 
 if TYPE_CHECKING:
     from batik_vector.recipe.reading.overrides import Override
 
 
 def load_recipe(path: str | os.PathLike[str], overrides: Sequence[str] = ()) -> Recipe:
-    """Read a recipe from its file, or from an SVG, PDF, DXF or PNG that was compiled from it.
+    """Read a recipe from its file, from an SVG, PDF, DXF or PNG that was compiled from it, or the library.
 
     Args:
-        path: of the file.
+        path: of the file; or ``library:NAME``, or ``library:NAME@3`` for one of its versions.
         overrides: values to set in it, each as ``KEY=VALUE``.
 
     Raises:
         RecipeError: with everything that is wrong.
+        LibraryError: where the library has no such pattern, or cannot be read.
     """
     given(path, str | os.PathLike, "path")
-    text, folder = read_text(path), os.path.dirname(os.fspath(path)) or "."
-    return read_recipe(text, source=os.fspath(path), overrides=overrides, folder=folder)
+    source = os.fspath(path)
+    folder = None if scheme_of(source)[0] else os.path.dirname(source) or "."
+    return read_recipe(read_text(path), source=source, overrides=overrides, folder=folder)
 
 
 def read_recipe(
@@ -44,6 +46,7 @@ def read_recipe(
     source: str = "recipe",
     overrides: Sequence[str] = (),
     folder: str | os.PathLike[str] | None = None,
+    drawings: Mapping[str, str] | None = None,
 ) -> Recipe:
     """Read a recipe from TOML text.
 
@@ -52,6 +55,7 @@ def read_recipe(
         source: what faults call it.
         overrides: values to set in it, each as ``KEY=VALUE``.
         folder: where the drawings stand that it names; without it those alone are known that it carries.
+        drawings: SVGs by the names of their files, for the recipe to carry; see :attr:`Recipe.drawing`.
 
     Raises:
         RecipeError: with everything that is wrong.
@@ -60,7 +64,9 @@ def read_recipe(
     given(source, str, "source")
     given(overrides, tuple[str, ...], "overrides")
     given(folder, str | os.PathLike | None, "folder")
+    given(drawings, Mapping[str, str] | None, "drawings")
     text, carried = parted(text.replace("\r\n", "\n"))
+    carried |= drawings or {}
     written = text
     data = _tables(text, source)
     changes: list[Override] = []

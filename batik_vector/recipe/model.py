@@ -114,6 +114,13 @@ class Recipe:
             raise RecipeError([Fault("missing: the recipe has borders alone, and no tile", "tile")])
         return self.tile
 
+    @property
+    def written(self) -> str:
+        """The page of TOML as it was written, without the drawings that its ``source`` carries behind it."""
+        from batik_vector.recipe.reading.sources import parted
+
+        return parted(self.source)[0]
+
     def placements(self) -> Iterator[tuple[Path, Placement]]:
         """Yield every placement, those of the tile first, and where it stands in the recipe."""
         return places(self)

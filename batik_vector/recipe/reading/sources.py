@@ -1,4 +1,4 @@
-"""From a file to a recipe's text: a TOML file, or a file that this program compiled."""
+"""From a source to a recipe's text: a TOML file, one that was compiled, or a pattern of the library."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import re
 import stat
 import tomllib
 from collections.abc import Mapping
+from importlib import import_module
 from pathlib import Path
 
 from batik_vector.errors import Fault, RecipeError
@@ -25,6 +26,9 @@ CARRIED = (
 """Begins what a compiled file carries behind its recipe."""
 MAX_CARRIED = 14 << 20
 """Characters that the drawings in it may come to; the recipe too fits in what a file may carry."""
+SCHEMES = {"library": "batik_vector.library.sources"}
+"""Sources that are no files: what stands before their colon, and the module that is asked for them by its
+``fetched(name, source)``, the text of a recipe and its drawings. It is imported when it is first needed."""
 _ENTRY = re.compile(r'("[^"\\\n]*+(?:\\.[^"\\\n]*+)*") = \'\'\'\n([^\']*+)\'\'\'\n')
 
 
@@ -32,9 +36,13 @@ def read_text(path: str | os.PathLike[str]) -> str:
     """Return the text of a recipe, from its own file or from one compiled from it.
 
     Raises:
-        RecipeError: saying what about the file is wrong.
+        BatikError: saying what about the file, or about the library, is wrong.
     """
     source = os.fspath(path)
+    scheme, name = scheme_of(source)
+    if scheme:
+        text, drawings = import_module(SCHEMES[scheme]).fetched(name, source)
+        return with_carried(text, drawings)
     try:
         found = os.stat(path)
     except (OSError, ValueError) as error:
@@ -46,6 +54,25 @@ def read_text(path: str | os.PathLike[str]) -> str:
     if found.st_size > limit:
         raise _fault(f"{found.st_size:,} bytes, expected at most {limit:,}", source)
     return _from_compiled(path) if compiled else _from_text(path, source)
+
+
+def scheme_of(source: str) -> tuple[str, str]:
+    """``library:kawung@3`` → library, kawung@3; a file has no scheme: it is called ``./library:kawung``."""
+    scheme, colon, name = source.partition(":")
+    return (scheme, name) if colon and scheme in SCHEMES else ("", source)
+
+
+def stem_of(source: str | os.PathLike[str]) -> str:
+    """Return what files of a source are called, without a suffix: ``library:sample/kawung@3`` → kawung."""
+    scheme, name = scheme_of(os.fspath(source))
+    if not scheme:
+        return Path(source).stem
+    return name.rpartition("/")[2].partition("@")[0] or scheme
+
+
+def is_compiled(source: str | os.PathLike[str]) -> bool:
+    """Whether a source is by its name a file that was compiled from its recipe."""
+    return not scheme_of(os.fspath(source))[0] and Path(source).suffix.lower() in COMPILED
 
 
 def _from_compiled(path: str | os.PathLike[str]) -> str:

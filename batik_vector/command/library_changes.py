@@ -1,0 +1,282 @@
+"""The commands that change the library: ``add``, ``export``, ``restore``, ``tag``, ``note``, ``remove``."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from batik_vector.command.library_options import as_json_option, file_option, report_of
+from batik_vector.command.telling import collecting, faults_told, reported
+from batik_vector.errors import BatikError, ExportError, LibraryError, unknown_name
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from batik_vector.library import Library
+    from batik_vector.library.exchange import Incoming
+    from batik_vector.library.measuring import Measured
+
+FORMATS = ("toml", "svg", "pdf", "dxf", "png", "zip")
+
+
+@click.command("add", short_help="Save recipes.")
+@click.argument("paths", nargs=-1, required=True, metavar="RECIPE|FOLDER|ZIP…")
+@click.option("--name", default="", metavar="NAME", help="What it is called.  [default: as its file]")
+@click.option("--tag", "tags", multiple=True, metavar="TAG", help="That it gets; may be given again.")
+@click.option("--note", default="", metavar="TEXT", help="A note on it.")
+@click.option(
+    "-j",
+    "processes",
+    type=click.IntRange(min=0),
+    default=0,
+    metavar="N",
+    help="Processes.  [default: one a core]",
+)
+@file_option
+@as_json_option
+def add_command(
+    paths: Sequence[str],
+    name: str,
+    tags: Sequence[str],
+    note: str,
+    processes: int,
+    path: str | None,
+    as_json: bool,
+) -> None:
+    """Save recipes: as new patterns, or as new versions of those that have their names.
+
+    A RECIPE is a TOML file, or an SVG, PDF, DXF or PNG that was compiled from one; of a FOLDER all are taken;
+    a ZIP is a library's, or holds recipes. Each is compiled, measured, and kept with a small picture. What
+    does not compile is told, and the others are saved.
+    """
+    from batik_vector.library import Library
+    from batik_vector.library.exchange import arrivals
+
+    collecting()
+    with reported(as_json) as report, Library(path) as library:
+        del report["recipes"]
+        report["patterns"] = []
+        found = arrivals(paths, name)
+        for error in found.faults:
+            with faults_told(report):
+                raise error
+        for each, measured in _measured(found.patterns, processes, as_json):
+            with faults_told(report):
+                if isinstance(measured, BatikError):
+                    raise measured
+                facts = _saved(library, each, measured, tags, note)
+                report["patterns"].append(facts)
+
+
+def _saved(
+    library: Library, each: Incoming, measured: Measured, tags: Sequence[str], note: str
+) -> dict[str, Any]:
+    """Save a recipe, and say so."""
+    notes = "\n".join((*each.notes, note)) if note else "\n".join(each.notes)
+    saved = library.add(
+        each.name, each.recipe, measured=measured, origin=each.origin, tags=(*each.tags, *tags), note=notes
+    )
+    words = "saved" if saved.fresh else "is there already, and says the same"
+    click.echo(f"{saved.name}@{saved.number} {words}", err=True)
+    return {"name": saved.name, "version": saved.number, "saved": saved.fresh, "origin": each.origin}
+
+
+def _measured(
+    patterns: Sequence[Incoming], processes: int, quiet: bool
+) -> Iterator[tuple[Incoming, Measured | BatikError]]:
+    """Yield each recipe with what was measured of it, in order; old versions are not measured."""
+    from tqdm import tqdm
+
+    from batik_vector.library.measuring import Measured, all_measured
+
+    wanted = [number for number, each in enumerate(patterns) if each.newest]
+    work = [(patterns[number].recipe.source, patterns[number].origin) for number in wanted]
+    known: dict[int, Measured | BatikError] = {
+        number: Measured() for number, each in enumerate(patterns) if not each.newest
+    }
+    due = 0
+    with tqdm(total=len(wanted), delay=1, disable=quiet or None, leave=False) as bar:
+        for number, measured in all_measured(work, processes):
+            known[wanted[number]] = measured
+            bar.update()
+            while due in known:
+                yield patterns[due], known.pop(due)
+                due += 1
+    while due in known:
+        yield patterns[due], known.pop(due)
+        due += 1
+
+
+@click.command("export", short_help="Write patterns to files, or a zip.")
+@click.argument("names", nargs=-1, metavar="NAME[@N]…")
+@click.option("--all", "everything", is_flag=True, help="All patterns of your own.")
+@click.option("--tag", "tags", multiple=True, metavar="TAG", help="All that have it.")
+@click.option("-o", "folder", default=".", metavar="DIR|FILE.zip", help="Where files go.  [default: .]")
+@click.option(
+    "-f",
+    "formats",
+    default="",
+    metavar="FORMAT,…",
+    help=f"{', '.join(FORMATS)}; a zip has all versions.  [default: toml, or zip where -o names one]",
+)
+@click.option("--force", is_flag=True, help="Replace files that are there.")
+@file_option
+@as_json_option
+def export_command(
+    names: Sequence[str],
+    everything: bool,
+    tags: Sequence[str],
+    folder: str,
+    formats: str,
+    force: bool,
+    path: str | None,
+    as_json: bool,
+) -> None:
+    """Write patterns to files: their recipes, what they compile to, or all versions in a zip.
+
+    Each file carries its recipe, and library add takes it back.
+    """
+    from pathlib import Path
+
+    from batik_vector.library import Library
+
+    wanted = _formats(formats, folder)
+    with report_of(as_json, "files") as files, Library(path, write=False) as library:
+        chosen = [*names]
+        if everything or tags:
+            chosen += [each.name for each in library.entries(tags=tags, own=everything or not tags)]
+        if not chosen:
+            raise LibraryError("nothing to export: expected names, --all, or --tag TAG")
+        collecting()
+        if "zip" in wanted:
+            files.append(_zip(library, list(dict.fromkeys(chosen)), Path(folder), force))
+            wanted = [each for each in wanted if each != "zip"]
+        files += _files(library, chosen, Path(folder), wanted, force) if wanted else []
+
+
+def _formats(words: str, folder: str) -> list[str]:
+    found = [each.strip().lower() for each in words.split(",") if each.strip()]
+    for name in found:
+        if name not in FORMATS:
+            raise LibraryError(unknown_name(name, FORMATS, "format"))
+    zips = folder.lower().endswith(".zip")
+    if zips and found not in ([], ["zip"]):
+        raise LibraryError(f'"{folder}" is a zip, expected a folder for files of other formats')
+    return list(dict.fromkeys(found)) or (["zip"] if zips else ["toml"])
+
+
+def _zip(library: Library, names: Sequence[str], folder: Path, force: bool) -> dict[str, Any]:
+    from batik_vector.export.files import write_all_whole
+    from batik_vector.library.exchange import zipped
+
+    wholes = {library.version(name).name: name for name in names}
+    target = folder if folder.suffix.lower() == ".zip" else folder / "library.zip"
+    _refuse_there([target], force)
+    count = 0
+
+    def write(sink: Any) -> None:
+        nonlocal count
+        count = zipped(library, list(wholes), sink)
+
+    write_all_whole([(target, write)])
+    click.echo(f"{target}  {len(wholes):,} patterns, {count:,} versions", err=True)
+    return {"path": str(target), "format": "zip", "patterns": len(wholes), "versions": count}
+
+
+def _files(
+    library: Library, names: Sequence[str], folder: Path, formats: Sequence[str], force: bool
+) -> list[dict[str, Any]]:
+    """Write the files of patterns, all or none."""
+    from batik_vector.export.files import write_all_whole
+    from batik_vector.library.exchange import file_name, written
+
+    places: dict[Path, tuple[Any, str]] = {}
+    for name in dict.fromkeys(names):
+        version = library.version(name)
+        for format_ in formats:
+            target = folder / file_name(version, format_)
+            if places.get(target, (version,))[0] != version:
+                other = places[target][0]
+                both = f"{other.name}@{other.number} and {version.name}@{version.number}"
+                raise LibraryError(f"{both} would both be written to {target}")
+            places[target] = version, format_
+    _refuse_there(list(places), force)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise ExportError(f"{folder} could not be made: {error.strerror}") from error
+    write_all_whole([(target, written(library, *what)) for target, what in places.items()])
+    for target in places:
+        click.echo(f"{target}", err=True)
+    return [{"path": str(target), "format": what[1]} for target, what in places.items()]
+
+
+def _refuse_there(places: Sequence[Path], force: bool) -> None:
+    there = next((place for place in places if place.exists() or place.is_symlink()), None)
+    if there is not None and not force:
+        raise ExportError(f"{there} is there already: --force replaces it")
+
+
+@click.command("restore", short_help="Bring back an old version, or what was removed.")
+@click.argument("name", metavar="NAME[@N]")
+@file_option
+@as_json_option
+def restore_command(name: str, path: str | None, as_json: bool) -> None:
+    """Make an old version the newest again, or bring back a pattern that was removed."""
+    from batik_vector.library import Library
+
+    with report_of(as_json, "patterns") as found, Library(path) as library:
+        saved = library.restore(name)
+        found.append({"name": saved.name, "version": saved.number, "saved": saved.fresh})
+        click.echo(f"{saved.name}@{saved.number} is the newest", err=True)
+
+
+@click.command("tag", short_help="Give or take tags.")
+@click.argument("name", metavar="NAME")
+@click.argument("tags", nargs=-1, required=True, metavar="TAG…")
+@click.option("--remove", is_flag=True, help="Take these tags from it.")
+@file_option
+@as_json_option
+def tag_command(name: str, tags: Sequence[str], remove: bool, path: str | None, as_json: bool) -> None:
+    """Give a pattern tags, or take them from it."""
+    from batik_vector.library import Library
+
+    with report_of(as_json, "patterns") as found, Library(path) as library:
+        has = library.tag(name, tags, remove=remove)
+        found.append({"name": name, "tags": list(has)})
+        click.echo(f"{name}: {', '.join(has) or 'no tags'}", err=True)
+
+
+@click.command("note", short_help="Add a note, or read them.")
+@click.argument("name", metavar="NAME")
+@click.argument("text", required=False)
+@file_option
+@as_json_option
+def note_command(name: str, text: str | None, path: str | None, as_json: bool) -> None:
+    """Add a note to a pattern; without a TEXT, say which it has."""
+    from batik_vector.library import Library
+
+    with report_of(as_json, "notes") as found, Library(path, write=text is not None) as library:
+        notes = library.notes(name) if text is None else library.note(name, text)
+        found += [note._asdict() for note in notes]
+        for note in notes if not as_json else ():
+            click.echo(note.text)
+
+
+@click.command("remove", short_help="Remove patterns.")
+@click.argument("names", nargs=-1, required=True, metavar="NAME…")
+@click.option("--for-good", is_flag=True, help="With all versions, so that nothing brings it back.")
+@file_option
+@as_json_option
+def remove_command(names: Sequence[str], for_good: bool, path: str | None, as_json: bool) -> None:
+    """Remove patterns; restore brings them back, unless they were removed for good."""
+    from batik_vector.library import Library
+
+    with report_of(as_json, "patterns") as found, Library(path) as library:
+        library.remove(*names, for_good=for_good)
+        for name in names:
+            found.append({"name": name, "removed": True})
+            words = "removed for good" if for_good else f"removed: library restore {name} brings it back"
+            click.echo(f"{name} {words}", err=True)

@@ -1,0 +1,170 @@
+"""What is kept of a recipe besides its text: measured features, and a small picture of its tile.
+
+A recipe is compiled once, at its own tolerance, and what is measured is true. The picture is drawn of the
+same marks, thinned to what a screen shows.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
+
+from batik_vector import (
+    BatikError,
+    MissingLibraryError,
+    PngOptions,
+    Profile,
+    SvgOptions,
+    compile_cloth,
+    compile_recipe,
+    read_recipe,
+    render,
+)
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from batik_vector import Artwork, Layer, Recipe
+
+SIDE = 160
+"""Pixels of the longer side of a small picture."""
+DETAIL = 400
+"""Steps in the longer side of a tile: what is finer is left out of its picture."""
+
+
+@dataclass(frozen=True)
+class Measured:
+    """Features by name, as plain values, and pictures: our SVG, and a PNG where this system can draw one."""
+
+    features: Mapping[str, Any] = field(default_factory=dict)
+    svg: bytes = b""
+    png: bytes = b""
+
+
+def measured(recipe: Recipe, artwork: Artwork | None = None, pictures: bool = True) -> Measured:
+    """Measure a recipe.
+
+    Args:
+        recipe: as read.
+        artwork: its tile, where it has been compiled already.
+        pictures: whether its picture is drawn, too.
+
+    Raises:
+        BatikError: where it does not compile.
+    """
+    features: dict[str, Any] = {"inks": len(recipe.ink), "motifs": _motifs(recipe)}
+    if recipe.tile is None:
+        page = compile_cloth(_coarse(recipe))
+        features |= {"width": page.cell.width, "height": page.cell.height}
+        # A cloth is drawn piece by piece, and cannot be thinned: it is drawn coarser from the beginning.
+        svg = render(page, "svg", _PICTURE, check=False) if pictures else b""
+        return Measured(features, svg, _png(page) if pictures else b"")
+    tile = compile_recipe(recipe) if artwork is None else artwork
+    features |= _of_tile(tile, recipe)
+    if not pictures:
+        return Measured(features)
+    small = _thinned(tile)
+    return Measured(features, render(small, "svg", _PICTURE, check=False), _png(small))
+
+
+_PICTURE = SvgOptions(profile=Profile.COMPACT)
+
+
+def _of_tile(tile: Artwork, recipe: Recipe) -> dict[str, Any]:
+    import shapely
+
+    inked = sum(float(shapely.area(layer.areas).sum()) for layer in tile.layers)
+    drawn = sum(float(shapely.length(layer.lines).sum()) * layer.ink.width for layer in tile.layers)
+    cell = tile.cell
+    return {
+        "width": cell.width,
+        "height": cell.height,
+        "inks": len(tile.layers),
+        "coverage": round(min(100.0, 100 * (inked + drawn) / (cell.width * cell.height)), 2),
+        "vertices": tile.vertex_count,
+        "marks": sum(len(layer.areas) + len(layer.lines) for layer in tile.layers),
+        "repeat": recipe.tiling.repeat,
+    }
+
+
+def _motifs(recipe: Recipe) -> int:
+    return len({name for _, placement in recipe.placements() for name in placement.motifs})
+
+
+def _coarse(recipe: Recipe) -> Recipe:
+    """Return a recipe of a cloth as finely as its picture shows it."""
+    width = recipe.yardage.width if recipe.yardage is not None else 0.0
+    return replace(recipe, tolerance=min(5.0, max(recipe.tolerance, width / DETAIL)), source="")
+
+
+def _thinned(tile: Artwork) -> Artwork:
+    """Return a tile with what a small picture shows of it."""
+    tolerance = max(tile.tolerance, max(tile.cell.width, tile.cell.height) / DETAIL)
+    layers = tuple(_thin_layer(layer, tolerance) for layer in tile.layers)
+    bare = replace(tile.provenance, recipe="", seed=0)
+    return replace(tile, layers=layers, provenance=bare, facts={}, borders=frozenset())
+
+
+def _thin_layer(layer: Layer, tolerance: float) -> Layer:
+    import shapely
+
+    def thin(marks: NDArray[Any], dimension: int) -> NDArray[Any]:
+        parts = shapely.get_parts(shapely.simplify(marks, tolerance, preserve_topology=False))
+        # What collapses is smaller than a step of the picture.
+        kept: NDArray[Any] = parts[(shapely.get_dimensions(parts) == dimension) & ~shapely.is_empty(parts)]
+        return kept
+
+    return replace(layer, areas=thin(layer.areas, 2), lines=thin(layer.lines, 1))
+
+
+def measured_text(text: str, source: str) -> Measured:
+    """Measure a recipe that carries its drawings; see :func:`measured`."""
+    return measured(read_recipe(text, source))
+
+
+def all_measured(
+    recipes: Sequence[tuple[str, str]], processes: int = 0
+) -> Iterator[tuple[int, Measured | BatikError]]:
+    """Measure many recipes, several at a time; yield each by its number when it is done, or what is wrong.
+
+    Args:
+        recipes: the text, which carries its drawings, and the source of each.
+        processes: how many work; as many as there are cores, when 0.
+    """
+    processes = min(processes or os.cpu_count() or 1, len(recipes))
+    if processes < 2 or len(recipes) < WORTHWHILE:
+        for number, (text, source) in enumerate(recipes):
+            yield number, _tried(text, source)
+        return
+    from concurrent.futures import ProcessPoolExecutor, as_completed
+    from multiprocessing import get_context
+
+    with ProcessPoolExecutor(processes, mp_context=get_context("spawn")) as pool:
+        work = {pool.submit(_tried, text, source): number for number, (text, source) in enumerate(recipes)}
+        try:
+            for done in as_completed(work):
+                yield work.pop(done), done.result()
+        finally:
+            # Whoever stops listening has no use for what has not begun.
+            pool.shutdown(cancel_futures=True)
+
+
+WORTHWHILE = 6
+"""Recipes below which other processes take longer to begin than they save."""
+
+
+def _tried(text: str, source: str) -> Measured | BatikError:
+    try:
+        return measured_text(text, source)
+    except BatikError as error:
+        return error
+
+
+def _png(page: Any) -> bytes:
+    side = max(page.cell.width, page.cell.height)
+    try:
+        return render(page, "png", PngOptions(dpi=max(1.0, SIDE * 25.4 / side)), check=False)
+    except MissingLibraryError:
+        return b""
