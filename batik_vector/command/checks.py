@@ -26,12 +26,13 @@ from batik_vector.importing.document import load
 from batik_vector.importing.overlay import laid_over
 from batik_vector.importing.svg import Reading, read_svg
 from batik_vector.making.jobs import Job, made, read_jobs, warnings
+from batik_vector.making.promised import asked_group
 from batik_vector.recipe.loading import read_recipe
 from batik_vector.recipe.model import Recipe
 from batik_vector.recipe.reading.sources import COMPILED, is_compiled, scheme_of, stem_of
 from batik_vector.tiling.symmetry.groups import group
 from batik_vector.tiling.symmetry.machine_fit import per_cent
-from batik_vector.tiling.symmetry.repeats import parse_repeat, repeat_of
+from batik_vector.tiling.symmetry.repeats import parse_repeat
 from batik_vector.values import frozen
 
 Tell = Callable[[str], None]
@@ -71,9 +72,6 @@ by 0.026 mm at a seam, which does not show on cloth. A hair of ink or of bare cl
 
 SAMPLED_MM = 0.02
 """How far (mm) the polylines of a stranger may stand from true curves: as far as ours do, unless asked."""
-
-MEASURING = 0.002
-"""By how much more a tile may be found stretched than its recipe says."""
 
 
 @frozen(eq=False)
@@ -141,7 +139,7 @@ def _check_recipe(source: str, overrides: Sequence[str], wishes: Wishes, tell: T
         raise
     artwork = made(job, tell)
     tell("measuring")
-    certificate = _certified(source, artwork, wishes, _asked(job.recipe))
+    certificate = _certified(source, artwork, wishes, asked_group(job.recipe))
     facts = inspect(artwork)
     notes = _left_aside(wishes)
     if is_compiled(source):
@@ -169,7 +167,7 @@ def _check_drawing(source: str, wishes: Wishes, tell: Tell) -> Found:
     reading, promise = _as_promised(source, reading, promise)
     if promise.broken and recipe.yardage is not None:
         raise _fault(source, "shows the cloth, and not the tile that fills it: check its recipe instead")
-    certificate = _certified(source, reading.artwork, wishes, _asked(recipe))
+    certificate = _certified(source, reading.artwork, wishes, asked_group(recipe))
     return _drawing_found(source, reading, certificate, promise, notes)
 
 
@@ -200,23 +198,6 @@ def _recipe_of(source: str, notes: list[str]) -> Recipe | None:
     except RecipeError as error:
         notes.append(f"its recipe cannot be read, and was left aside: {error.faults[0].message}")
         return None
-
-
-def _asked(recipe: Recipe) -> Asked | None:
-    """Return the symmetry group that a recipe promises of its whole tile, or nothing.
-
-    A placement with a symmetry or an origin of its own need not keep the tile's.
-    """
-    asked = repeat_of(recipe.tiling.repeat).group
-    if asked is None:
-        return None
-    kept = all(
-        (not each.symmetry or group(each.symmetry) == asked) and each.phase == (0.0, 0.0)
-        for each in recipe.place
-    )
-    across, along = recipe.tiling.stretch
-    apart = max(across / along, along / across) - 1
-    return Asked(asked.name, exactly=False, stretch=apart + MEASURING) if kept else None
 
 
 def _certified(source: str, artwork: Artwork, wishes: Wishes, asked: Asked | None) -> Certificate:

@@ -1,26 +1,108 @@
-"""``batik-vector sweep``: many variants of one recipe, with a contact sheet."""
+"""``batik-vector sweep`` and ``random``: many variants of one recipe, with a contact sheet."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
 from batik_vector.command.options import format_names, jobs_option, json_option, set_option
-from batik_vector.command.telling import collecting, reported
+from batik_vector.command.telling import collecting, complain, reported
+from batik_vector.errors import unknown_name
+from batik_vector.values import frozen
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from batik_vector.making.pool import Outcome
-    from batik_vector.making.sweeping import Made, Sweep
-    from batik_vector.making.variants import Axis, Variant
+    from batik_vector.making.sheets import Plan
+    from batik_vector.making.sweeping import Made, Making, Sweep
+    from batik_vector.making.variants import Variant
 
 SHEET_FORMATS = ("svg", "pdf", "png")
 """As in :data:`batik_vector.making.sheets.FORMATS`, which a test compares."""
 MOST_TOLD = 20
 """Variants without files that are named one by one."""
+MOST_CAPTIONS = 6
+"""Lines below a picture."""
+
+Command = TypeVar("Command", bound=Callable[..., Any])
+
+
+@frozen
+class Wishes:
+    """What both commands are asked for beside the variants."""
+
+    recipe: str
+    overrides: tuple[str, ...]
+    folder: str | None
+    formats: tuple[str, ...]
+    sheet: tuple[str, ...]
+    paper: str
+    jobs: int
+    as_json: bool
+
+    def making(self, ending: str) -> Making:
+        """Return what makes a variant's files."""
+        import os
+        from batik_vector.making.sheets import plan
+        from batik_vector.making.sweeping import Making
+        from batik_vector.recipe.reading.sources import read_text, stem_of
+
+        # What is wrong with the sheet is told before anything is made.
+        plan(1, 1.0, 1, self.paper)
+        return Making(
+            self.recipe,
+            read_text(self.recipe),
+            os.path.dirname(self.recipe) or ".",
+            self.folder or f"{stem_of(self.recipe)}-{ending}",
+            self.overrides,
+            self.formats or ("svg",),
+            bool(self.sheet),
+        )
+
+
+def _sheet_formats(_ctx: click.Context, _param: click.Parameter, text: str) -> tuple[str, ...]:
+    names = [name.strip().lower() for name in text.split(",") if name.strip()]
+    for name in names:
+        if name not in SHEET_FORMATS:
+            raise click.BadParameter(unknown_name(name, SHEET_FORMATS, "format"))
+    return tuple(dict.fromkeys(names))
+
+
+def _shared(folder: str) -> Callable[[Command], Command]:
+    """Return what gives a command the options that both have."""
+    sheet_formats = f"{', '.join(SHEET_FORMATS)}.  [default: svg,pdf]"
+    options = [
+        set_option,
+        click.option("-o", "folder", metavar="DIR", help=f"Where files go.  [default: {folder}]"),
+        click.option(
+            "-f",
+            "formats",
+            multiple=True,
+            callback=format_names,
+            metavar="FORMAT,…",
+            help="As for compile.  [default: svg]",
+        ),
+        click.option("--sheet", is_flag=True, help="Also draw all of them on a sheet."),
+        click.option(
+            "--sheet-format",
+            "sheet_formats",
+            default="svg,pdf",
+            callback=_sheet_formats,
+            metavar="FORMAT,…",
+            help=sheet_formats,
+        ),
+        click.option("--paper", default="A4", metavar="SIZE", help="Of the sheet: A5 to A0.  [default: A4]"),
+        jobs_option,
+        json_option,
+    ]
+
+    def dressed(command: Command) -> Command:
+        for option in reversed(options):
+            command = option(command)
+        return command
+
+    return dressed
 
 
 @click.command("sweep", short_help="Make many variants of a recipe, with a contact sheet.")
@@ -34,44 +116,16 @@ MOST_TOLD = 20
 )
 @click.option("--random", "sample", type=click.IntRange(1), metavar="N", help="A sample of N, spread evenly.")
 @click.option("--seed", type=click.IntRange(0), default=0, metavar="N", help="Which sample.  [default: 0]")
-@set_option
-@click.option("-o", "folder", metavar="DIR", help="Where files go.  [default: NAME-sweep]")
-@click.option(
-    "-f",
-    "formats",
-    multiple=True,
-    callback=format_names,
-    metavar="FORMAT,…",
-    help="As for compile.  [default: svg]",
-)
-@click.option("--sheet", is_flag=True, help="Also draw all of them on a sheet.")
-@click.option(
-    "--sheet-format",
-    "sheet_formats",
-    default="svg,pdf",
-    metavar="FORMAT,…",
-    help=f"{', '.join(SHEET_FORMATS)}.  [default: svg,pdf]",
-)
-@click.option("--paper", default="A4", metavar="SIZE", help="Of the sheet: A5 to A0.  [default: A4]")
-@jobs_option
+@_shared("NAME-sweep")
 @click.option("--limit", type=click.IntRange(1), metavar="N", help="Variants at most.  [default: 100,000]")
 @click.option("--dry-run", is_flag=True, help="Say what would be made, and make nothing.")
-@json_option
 def sweep_command(
-    recipe: str,
     vary: Sequence[str],
     sample: int | None,
     seed: int,
-    overrides: Sequence[str],
-    folder: str | None,
-    formats: Sequence[str],
-    sheet: bool,
-    sheet_formats: str,
-    paper: str,
-    jobs: int,
     limit: int | None,
     dry_run: bool,
-    as_json: bool,
+    **given: Any,
 ) -> None:
     """Make many variants of a recipe.
 
@@ -79,154 +133,181 @@ def sweep_command(
     DIR/NAME_KEY-VALUE.SUFFIX. A sweep that was stopped goes on where it was: DIR/NAME-sweep.jsonl says what
     has been made. What cannot be made is told at the end and keeps back nothing.
     """
+    wishes = _wishes(**given)
+    with reported(wishes.as_json) as report:
+        from batik_vector.making.sweeping import planned_sweep
+        from batik_vector.making.variants import MOST, parse_axis, short_names, variants
+        from batik_vector.recipe.reading.sources import stem_of
 
-    from batik_vector.making.sheets import plan
-
-    asked = _sheet_formats(sheet_formats) if sheet else ()
-    if asked:
-        plan(1, 1.0, 1, paper)
-    with reported(as_json) as report:
-        planned, axes = _planned(
-            recipe,
-            vary,
-            overrides,
-            folder,
-            formats,
-            sample=sample or 0,
-            seed=seed,
-            most=limit,
-            pictures=bool(asked),
-        )
-        report["variants"] = len(planned.variants)
-        report["folder"] = planned.making.folder
+        axes = [parse_axis(text) for text in vary]
+        found = variants(axes, stem_of(wishes.recipe), sample=sample or 0, seed=seed, most=limit or MOST)
+        planned = planned_sweep(wishes.making("sweep"), tuple(found))
         if dry_run:
-            for variant in planned.variants[:MOST_TOLD]:
-                click.echo(f"{variant.name}  {'  '.join(variant.changes)}", err=True)
-            click.echo(f"{len(planned.variants):,} variants; nothing is written", err=True)
+            _tell_plan(planned)
             return
-        collecting()
-        _run(planned, jobs, report, as_json)
-        for path in _sheet(planned, axes, asked, paper) if asked else ():
-            report.setdefault("sheet", []).append(str(path))
-            click.echo(f"{path}  shows all variants", err=True)
+        columns = len(axes[-1].values) if len(axes) > 1 and not sample else 0
+        names = short_names([axis.key for axis in axes])
+        about = f"{len(planned.variants):,} variants of {', '.join(axis.key for axis in axes)}"
+
+        def caption(variant: Variant) -> tuple[str, ...]:
+            values = [change.partition("=")[2] for change in variant.changes]
+            return tuple(f"{name} {value}" for name, value in zip(names, values, strict=True))[:MOST_CAPTIONS]
+
+        _make(planned, wishes, report, caption, about, columns)
 
 
-def _sheet_formats(text: str) -> tuple[str, ...]:
-    from batik_vector.errors import unknown_name
-
-    names = [name.strip().lower() for name in text.split(",") if name.strip()]
-    for name in names:
-        if name not in SHEET_FORMATS:
-            raise click.BadParameter(unknown_name(name, SHEET_FORMATS, "format"), param_hint="--sheet-format")
-    return tuple(dict.fromkeys(names))
-
-
-def _planned(
-    recipe: str,
-    vary: Sequence[str],
-    overrides: Sequence[str],
-    folder: str | None,
-    formats: Sequence[str],
-    *,
-    sample: int,
+@click.command("random", short_help="Make random variations of a recipe that hold on cloth.")
+@click.argument("recipe", metavar="RECIPE")
+@click.option("-n", "count", type=click.IntRange(1, 10_000), default=24, metavar="N", help="[default: 24]")
+@click.option(
+    "--seed", type=click.IntRange(0), default=0, metavar="N", help="Which variations.  [default: 0]"
+)
+@click.option(
+    "--lock", multiple=True, metavar="KEY", help='Keys that stay, such as petal.count or "motif.bud.*".'
+)
+@click.option("--only", multiple=True, metavar="KEY", help="Keys that move; all others stay.")
+@click.option(
+    "--reach",
+    type=click.FloatRange(0, 1, min_open=True),
+    default=0.4,
+    metavar="SHARE",
+    help="How far numbers move, up to 1.  [default: 0.4]",
+)
+@click.option(
+    "--least", type=click.FloatRange(0), default=0.4, metavar="MM", help="Least width.  [default: 0.4]"
+)
+@_shared("NAME-random")
+def random_command(
+    count: int,
     seed: int,
-    most: int | None,
-    pictures: bool,
-) -> tuple[Sweep, list[Axis]]:
-    import os
+    lock: Sequence[str],
+    only: Sequence[str],
+    reach: float,
+    least: float,
+    **given: Any,
+) -> None:
+    """Make random variations of a recipe that hold on cloth.
 
-    from batik_vector.making.sweeping import Making, planned_sweep
-    from batik_vector.making.variants import MOST, parse_axis, variants
-    from batik_vector.recipe.reading.sources import read_text, stem_of
+    The numbers of motifs and layouts move; sizes, inks and the repeat stay. Kept are such as pass check,
+    cover 12 to 85 % of the tile, and of whose inks no more than a tenth is narrower than --least or in
+    scraps. The same seed gives the same variations.
+    """
+    wishes = _wishes(**given)
+    with reported(wishes.as_json) as report:
+        from batik_vector.making.exploring import Floor, explored, numbers_of
+        from batik_vector.making.sweeping import planned_sweep
 
-    stem = stem_of(recipe)
-    making = Making(
-        recipe,
-        read_text(recipe),
-        os.path.dirname(recipe) or ".",
-        folder or f"{stem}-sweep",
-        tuple(overrides),
-        tuple(formats) or ("svg",),
-        pictures,
+        making = wishes.making("random")
+        moving = numbers_of(making, lock, only)
+        collecting()
+        kept = list(
+            explored(
+                making, moving, count, seed=seed, reach=reach, floor=Floor(least=least), workers=wishes.jobs
+            )
+        )
+        planned = planned_sweep(making, kept)
+        about = f"{count} variations, seed {seed}"
+        _make(planned, wishes, report, lambda variant: (variant.name.rpartition("-")[2],), about)
+
+
+def _wishes(**given: Any) -> Wishes:
+    sheet = given["sheet_formats"] if given["sheet"] else ()
+    return Wishes(
+        given["recipe"],
+        tuple(given["overrides"]),
+        given["folder"],
+        tuple(given["formats"]),
+        sheet,
+        given["paper"],
+        given["jobs"],
+        given["as_json"],
     )
-    axes = [parse_axis(text) for text in vary]
-    found = variants(axes, stem, sample=sample, seed=seed, most=most or MOST)
-    return planned_sweep(making, tuple(found)), axes
 
 
-def _run(planned: Sweep, jobs: int, report: dict[str, Any], quiet: bool) -> None:
-    """Make all variants, with a bar that tells rate and time left; tell at the end what could not be made."""
+def _tell_plan(planned: Sweep) -> None:
+    for variant in planned.variants[:MOST_TOLD]:
+        click.echo(f"{variant.name}  {'  '.join(variant.changes)}", err=True)
+    click.echo(f"{len(planned.variants):,} variants; nothing is written", err=True)
+
+
+def _make(
+    planned: Sweep,
+    wishes: Wishes,
+    report: dict[str, Any],
+    caption: Callable[[Variant], tuple[str, ...]],
+    about: str,
+    columns: int = 0,
+) -> None:
+    """Make all variants, with a bar that tells rate and time left, and their sheet."""
     from tqdm import tqdm
 
+    collecting()
     failed: list[Outcome[Variant, Made]] = []
-    there = made = 0
-    report["made"], report["failed"] = [], []
-    with tqdm(
-        total=len(planned.variants), unit="variant", delay=1, disable=quiet or None, leave=False
-    ) as bar:
-        for outcome in planned.run(jobs):
+    made = 0
+    report |= {"folder": planned.making.folder, "variants": len(planned.variants), "made": [], "failed": []}
+    quiet = wishes.as_json or None
+    with tqdm(total=len(planned.variants), unit="variant", delay=1, disable=quiet, leave=False) as bar:
+        for outcome in planned.run(wishes.jobs):
             bar.update()
             if outcome.result is None:
                 failed.append(outcome)
                 bar.set_postfix_str(f"{len(failed)} failed", refresh=False)
-                continue
-            made += outcome.result.fresh
-            there += not outcome.result.fresh
-            if quiet:
-                files = [name for name, _ in outcome.result.files]
-                report["made"].append(
-                    {"name": outcome.task.name, "changes": outcome.task.changes, "files": files}
-                )
+            else:
+                made += outcome.result.fresh
+                if wishes.as_json:
+                    report["made"].append(_told(outcome, files=[name for name, _ in outcome.result.files]))
     _tell_failures(failed, report)
+    there = len(planned.variants) - made - len(failed)
     kept = f", {there:,} were there" if there else ""
     missing = f", {len(failed):,} could not be made" if failed else ""
     click.echo(f"{planned.making.folder}: {made:,} variants made{kept}{missing}", err=True)
+    if wishes.sheet:
+        _draw_sheet(planned, wishes, report, caption, about, columns)
+
+
+def _told(outcome: Outcome[Variant, Made], **more: Any) -> dict[str, Any]:
+    return {"name": outcome.task.name, "changes": list(outcome.task.changes), **more}
 
 
 def _tell_failures(failed: Sequence[Outcome[Variant, Made]], report: dict[str, Any]) -> None:
-    from batik_vector.command.telling import complain
-
     for number, outcome in enumerate(sorted(failed, key=lambda each: each.task.number)):
         failure = outcome.failure
         assert failure is not None
         report["exit"] = max(report["exit"], failure.exit_code)
-        report["failed"].append(
-            {
-                "name": outcome.task.name,
-                "changes": outcome.task.changes,
-                "faults": [vars(f) for f in failure.faults],
-            }
-        )
+        report["failed"].append(_told(outcome, faults=[vars(fault) for fault in failure.faults]))
         if number < MOST_TOLD:
             complain(f"{outcome.task.name}: {failure.words}")
     if len(failed) > MOST_TOLD:
         complain(f"and {len(failed) - MOST_TOLD:,} more; --json tells of each")
 
 
-def _sheet(planned: Sweep, axes: Sequence[Axis], formats: Sequence[str], paper: str) -> list[Path]:
+def _draw_sheet(
+    planned: Sweep,
+    wishes: Wishes,
+    report: dict[str, Any],
+    caption: Callable[[Variant], tuple[str, ...]],
+    about: str,
+    columns: int,
+) -> None:
     from pathlib import Path
 
-    from batik_vector.making.sheets import Entry, pages, plan, write_sheet
-    from batik_vector.making.variants import short_names
+    from batik_vector.making.sheets import Entry, pages, write_sheet
     from batik_vector.recipe.reading.sources import stem_of
 
-    stem = stem_of(planned.making.source)
-    names = short_names([axis.key for axis in axes])
-
-    def caption(variant: Variant) -> tuple[str, ...]:
-        return tuple(
-            f"{name} {change.partition('=')[2]}" for name, change in zip(names, variant.changes, strict=True)
-        )
-
-    shapes = [picture.height / picture.width for _, picture in planned.pictures() if picture is not None]
-    shape = sorted(shapes)[len(shapes) // 2] if shapes else 1.0
-    columns = (
-        len(axes[-1].values)
-        if len(axes) > 1 and len(planned.variants) % max(len(axes[-1].values), 1) == 0
-        else 0
-    )
-    layout = plan(len(planned.variants), shape, len(axes), paper, columns)
+    count = len(planned.variants)
+    layout = _layout(planned, len(caption(planned.variants[0])), wishes.paper, columns)
     entries = (Entry(picture, caption(variant)) for variant, picture in planned.pictures())
-    about = [f"{len(planned.variants):,} variants of {', '.join(axis.key for axis in axes)}"]
-    sheet = pages(entries, len(planned.variants), layout, planned.title, about)
-    return write_sheet(Path(planned.making.folder), f"{stem}-sheet", sheet, formats, layout)
+    sheet = pages(entries, count, layout, planned.title, [about])
+    stem = stem_of(planned.making.source)
+    report["sheet"] = []
+    for path in write_sheet(Path(planned.making.folder), f"{stem}-sheet", sheet, wishes.sheet, layout):
+        report["sheet"].append(str(path))
+        click.echo(f"{path}  shows all variants", err=True)
+
+
+def _layout(planned: Sweep, lines: int, paper: str, columns: int) -> Plan:
+    from batik_vector.making.sheets import plan
+
+    shapes = sorted(each.height / each.width for _, each in planned.pictures() if each is not None)
+    shape = shapes[len(shapes) // 2] if shapes else 1.0
+    return plan(len(planned.variants), shape, lines, paper, columns)

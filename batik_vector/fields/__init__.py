@@ -17,6 +17,7 @@ from batik_vector.fields.marks import (
     Says,
     Several,
     Text,
+    Useful,
     hint_of,
     parse_colour,
 )
@@ -35,6 +36,7 @@ __all__ = [
     "Says",
     "Several",
     "Text",
+    "Useful",
     "bound",
     "check",
     "given",

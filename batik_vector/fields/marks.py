@@ -38,6 +38,14 @@ class Between:
 
 
 @frozen
+class Useful:
+    """Where the values lie that please most: sliders and random variations keep within, recipes need not."""
+
+    low: float
+    high: float
+
+
+@frozen
 class Says:
     """One line of help, and the paper's symbol where it has one."""
 

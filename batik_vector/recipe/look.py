@@ -5,7 +5,7 @@ from __future__ import annotations
 import enum
 from typing import Annotated
 
-from batik_vector.fields import Between, Length, Says, check
+from batik_vector.fields import Between, Length, Says, Useful, check
 from batik_vector.geometry.regions import FillRule
 from batik_vector.values import frozen
 
@@ -41,7 +41,9 @@ class Dress:
         Says("ground kept bare round it by cutting what lies beneath"),
     ] = None
     whole: Annotated[bool, Says("left out, not cut, where something above would cut it")] = False
-    contours: Annotated[int, Between(1, 64), Says("nested contours, evenly spaced to the centre", "l")] = 1
+    contours: Annotated[
+        int, Between(1, 64), Useful(1, 6), Says("nested contours, evenly spaced to the centre", "l")
+    ] = 1
 
     def __post_init__(self) -> None:
         check(self)

@@ -12,7 +12,7 @@ from dataclasses import field
 from typing import Annotated, TypeAlias
 
 from batik_vector.errors import GeometryError, unknown_name
-from batik_vector.fields import Between, Says, check
+from batik_vector.fields import Between, Says, Useful, check
 from batik_vector.geometry.curves import (
     Circle,
     Hypocycloid,
@@ -38,11 +38,13 @@ from batik_vector.values import frozen
 class Leaf(Dress):
     """The leaves of a flower: superellipses through the centre. Tian et al. 2019, Eq. 6."""
 
-    a: Annotated[float, Between(0.02, 50), Says("how full the leaf is towards its tips", "a")] = 0.2
-    b: Annotated[float, Between(0.02, 50), Says("how pointed the tips are", "b")] = 10.0
+    a: Annotated[
+        float, Between(0.02, 50), Useful(0.1, 1.2), Says("how full the leaf is towards its tips", "a")
+    ] = 0.2
+    b: Annotated[float, Between(0.02, 50), Useful(0.6, 20), Says("how pointed the tips are", "b")] = 10.0
     length: Annotated[float, Between(1e-3, 1e3), Says("distance of a tip from the centre", "r1 = 2l")] = 1.2
     width: Annotated[float, Between(1e-3, 1e3), Says("half the breadth of a leaf", "r2 = l/2")] = 0.3
-    count: Annotated[int, Between(0, 360), Says("leaf tips; 0 leaves them out")] = 8
+    count: Annotated[int, Between(0, 360), Useful(4, 24), Says("leaf tips; 0 leaves them out")] = 8
     turn: Annotated[float, Between(-360, 360), Says("degrees; 0 sets the leaves between the petals")] = 0.0
 
     def element(self) -> Element:
@@ -62,8 +64,10 @@ class Petals(Dress):
     """The petals of a flower: those of a rose, set round the centre. Tian et al. 2019, Eq. 9 and 10."""
 
     length: Annotated[float, Between(1e-3, 1e3), Says("length of a petal", "a1")] = 1.0
-    n: Annotated[int, Between(1, 64), Says("the rose whose petal it is; the larger, the slimmer", "n")] = 2
-    count: Annotated[int, Between(0, 360), Says("petals; 0 leaves them out")] = 8
+    n: Annotated[
+        int, Between(1, 64), Useful(2, 6), Says("the rose whose petal it is; the larger, the slimmer", "n")
+    ] = 2
+    count: Annotated[int, Between(0, 360), Useful(3, 24), Says("petals; 0 leaves them out")] = 8
     turn: Annotated[float, Between(-360, 360), Says("degrees; 0 points a petal along +x")] = 0.0
 
     def element(self) -> Element:
@@ -76,7 +80,7 @@ class Pistil(Dress):
     """The pistils of a flower: the cusps of a hypocycloid. Tian et al. 2019, Eq. 13 and 14."""
 
     length: Annotated[float, Between(1e-3, 1e3), Says("distance of the cusps from the centre", "r1")] = 0.8
-    count: Annotated[int, Between(0, 96), Says("cusps; 0 leaves them out", "m")] = 16
+    count: Annotated[int, Between(0, 96), Useful(5, 24), Says("cusps; 0 leaves them out", "m")] = 16
     cusp: Annotated[int, Between(1, 48), Says("how far apart joined cusps stand", "n")] = 5
     turn: Annotated[float, Between(-360, 360), Says("degrees; 0 points a cusp along +x")] = 0.0
 
@@ -101,7 +105,7 @@ class Core(Dress):
     """The core of a flower: a small rose, and a circle in its middle. Tian et al. 2019, Eq. 20."""
 
     length: Annotated[float, Between(1e-3, 1e3), Says("length of the core's petals", "a2")] = 0.5
-    count: Annotated[int, Between(0, 128), Says("petals of the core; 0 leaves them out")] = 8
+    count: Annotated[int, Between(0, 128), Useful(4, 16), Says("petals of the core; 0 leaves them out")] = 8
     radius: Annotated[float, Between(0, 1e3), Says("radius of the circle; 0 leaves it out", "a3")] = 0.1
     turn: Annotated[float, Between(-360, 360), Says("degrees; 0 points a petal along +x")] = 0.0
 

@@ -6,8 +6,8 @@ import pytest
 
 from batik_vector import compile_recipe
 from batik_vector.certificate import certify
-from batik_vector.command.checks import _asked
 from batik_vector.errors import RecipeError
+from batik_vector.making.promised import asked_group
 from batik_vector.recipe.loading import read_recipe
 from tests.random_recipes import recipe_text
 from tests.thorough import examples, long
@@ -43,7 +43,7 @@ def passes(number: int) -> None:
         if any(words in str(error) for words in NO_TILE):
             pytest.skip(str(error))
         raise
-    assert certify(artwork, asked=_asked(recipe)).faults == ()
+    assert certify(artwork, asked=asked_group(recipe)).faults == ()
 
 
 @pytest.mark.parametrize("number", [*STRIPS, *CRUMBS])

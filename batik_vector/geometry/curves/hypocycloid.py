@@ -8,7 +8,7 @@ from typing import Annotated
 import numpy as np
 
 from batik_vector.errors import GeometryError
-from batik_vector.fields import Between, Says, check
+from batik_vector.fields import Between, Says, Useful, check
 from batik_vector.geometry.curves.base import Curve
 from batik_vector.geometry.sampling import Array, Points
 from batik_vector.values import frozen
@@ -22,7 +22,7 @@ class Hypocycloid(Curve):
     Tian et al. 2019, Eq. 13; over the paper's [0, 20π] the curve is traced up to ten times.
     """
 
-    m: Annotated[int, Between(2, 96), Says("cusps", "m")] = 16
+    m: Annotated[int, Between(2, 96), Useful(5, 24), Says("cusps", "m")] = 16
     n: Annotated[int, Between(1, 48), Says("how far apart joined cusps stand", "n")] = 5
     length: Annotated[float, Between(1e-3, 1e3), Says("distance of the cusps from the centre", "r1")] = 0.8
 

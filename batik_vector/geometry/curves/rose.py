@@ -8,7 +8,7 @@ from typing import Annotated
 
 import numpy as np
 
-from batik_vector.fields import Between, Says
+from batik_vector.fields import Between, Says, Useful
 from batik_vector.geometry.curves.base import Curve
 from batik_vector.geometry.sampling import Array, Points
 from batik_vector.values import frozen
@@ -23,7 +23,9 @@ class Rose(Curve):
     Tian et al. 2019, Eq. 9; https://mathworld.wolfram.com/RoseCurve.html
     """
 
-    n: Annotated[int, Between(1, 128), Says("petals: n when n·d is odd, 2n when even", "n")] = 2
+    n: Annotated[
+        int, Between(1, 128), Useful(2, 12), Says("petals: n when n·d is odd, 2n when even", "n")
+    ] = 2
     d: Annotated[int, Between(1, 64), Says("how often the petals overlap")] = 1
     length: Annotated[float, Between(1e-3, 1e3), Says("length of a petal", "a1")] = 1.0
 
@@ -65,7 +67,9 @@ class Rose(Curve):
 class Petal(Curve):
     """One petal of the rose r = length·cos(nθ), |θ| ≤ π/2n, from the centre along +x and back."""
 
-    n: Annotated[int, Between(1, 64), Says("the rose it is of; the larger, the slimmer", "n")] = 2
+    n: Annotated[
+        int, Between(1, 64), Useful(2, 6), Says("the rose it is of; the larger, the slimmer", "n")
+    ] = 2
     length: Annotated[float, Between(1e-3, 1e3), Says("length of the petal", "a1")] = 1.0
 
     def at(self, t: Array) -> Points:

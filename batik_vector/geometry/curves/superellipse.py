@@ -6,7 +6,7 @@ from typing import Annotated
 
 import numpy as np
 
-from batik_vector.fields import Between, Says
+from batik_vector.fields import Between, Says, Useful
 from batik_vector.geometry.curves.base import Curve
 from batik_vector.geometry.sampling import Array, Points
 from batik_vector.values import frozen
@@ -20,10 +20,15 @@ class Superellipse(Curve):
     Tian et al. 2019, Eq. 5 and 6, over the whole period [0, 2π): the paper's [0, π] is the upper half.
     """
 
-    a: Annotated[float, Between(0.02, 50), Says("how full the leaf is towards its tips", "a")] = 0.2
-    b: Annotated[float, Between(0.02, 50), Says("how pointed the tips are; above 1 they are cusps", "b")] = (
-        10.0
-    )
+    a: Annotated[
+        float, Between(0.02, 50), Useful(0.1, 1.2), Says("how full the leaf is towards its tips", "a")
+    ] = 0.2
+    b: Annotated[
+        float,
+        Between(0.02, 50),
+        Useful(0.6, 20),
+        Says("how pointed the tips are; above 1 they are cusps", "b"),
+    ] = 10.0
     length: Annotated[float, Between(1e-3, 1e3), Says("half the long axis", "r1 = 2l")] = 1.0
     width: Annotated[float, Between(1e-3, 1e3), Says("half the short axis", "r2 = l/2")] = 0.25
 

@@ -11,7 +11,18 @@ import typing
 from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, Literal, Union
 
-from batik_vector.fields import HIDDEN, Between, LengthUnit, OneOf, Says, Several, Text, bound, hint_of
+from batik_vector.fields import (
+    HIDDEN,
+    Between,
+    LengthUnit,
+    OneOf,
+    Says,
+    Several,
+    Text,
+    Useful,
+    bound,
+    hint_of,
+)
 from batik_vector.units import format_mm
 from batik_vector.values import frozen
 
@@ -22,6 +33,7 @@ class Hint:
 
     base: Any
     bounds: Between | None = None
+    useful: Useful | None = None
     says: Says | None = None
     one_of: OneOf | None = None
     text: Text | None = None
@@ -71,7 +83,13 @@ class Member:
     default: Any = None
 
 
-_MARKS: Mapping[type, str] = {Between: "bounds", Says: "says", OneOf: "one_of", Text: "text"}
+_MARKS: Mapping[type, str] = {
+    Between: "bounds",
+    Useful: "useful",
+    Says: "says",
+    OneOf: "one_of",
+    Text: "text",
+}
 
 
 def taken_apart(hint: Any) -> Hint:

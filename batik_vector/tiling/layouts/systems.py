@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import Annotated, TypeAlias
 
 from batik_vector.errors import GeometryError
-from batik_vector.fields import Between, OneOf, Says, check
+from batik_vector.fields import Between, OneOf, Says, Useful, check
 from batik_vector.geometry.ifs import Ifs
 from batik_vector.geometry.maps import VARIATIONS
 from batik_vector.geometry.maps.affine import IDENTITY, Affine
@@ -29,9 +29,12 @@ class Julian(Layout):
     Tian et al. 2019, Eq. 22 and 23.
     """
 
-    power: Annotated[int, Between(-64, 64), Says("number of flowers", "P1")] = 4
+    power: Annotated[int, Between(-64, 64), Useful(2, 6), Says("number of flowers", "P1")] = 4
     dist: Annotated[
-        float, Between(-64, 64), Says("how they bend; equal to power they keep their shape", "P2")
+        float,
+        Between(-64, 64),
+        Useful(0.2, 6),
+        Says("how they bend; equal to power they keep their shape", "P2"),
     ] = 4.0
     level: Annotated[int, Between(0, 100_000), Says("how often the spreading is repeated")] = 1
     shift: Annotated[Pair, Says("move before each spreading", "dx, dy")] = (4 / 3, 4 / 3)

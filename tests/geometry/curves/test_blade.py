@@ -48,6 +48,6 @@ def test_every_blade_that_is_not_refused_is_one_piece(
 
 
 def test_a_bend_that_folds_it_over_is_refused_with_the_bends_that_do_not() -> None:
-    with pytest.raises(GeometryError, match="bend = 200 folds .* expected -136 to 136, or a smaller width"):
+    with pytest.raises(GeometryError, match=r"bend = 200 folds .* expected -136 to 136, or a smaller width"):
         Blade(1.0, 0.4, bend=200.0)
     Blade(1.0, 0.4, bend=136.0)
