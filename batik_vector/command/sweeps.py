@@ -44,6 +44,7 @@ class Wishes:
     def making(self, ending: str) -> Making:
         """Return what makes a variant's files."""
         import os
+
         from batik_vector.making.sheets import plan
         from batik_vector.making.sweeping import Making
         from batik_vector.recipe.reading.sources import read_text, stem_of
