@@ -1,0 +1,1 @@
+"""L-systems: words rewritten in parallel, and the turtle that walks along them."""
