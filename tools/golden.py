@@ -108,6 +108,7 @@ SECTIONS = {
     "own": "Drawings of one's own",
     "ground": "Grounds that flow behind motifs",
     "toss": "Tossed",
+    "lsystem": "Grown by L-systems",
     "group": "The seventeen wallpaper groups",
     "border": "Borders and cloths: the seven friezes",
     "figure": "The paper's figures",

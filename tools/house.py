@@ -57,7 +57,9 @@ WINGS: dict[str, Floors] = {
     "geometry": _floors(
         "sampling outlines edge_snap",
         "known work paths",
-        "ragged curves regions stretches inside",
+        "regions",
+        "lsystems",
+        "ragged curves stretches inside",
         "bezier continuations maps",
         "coincidence",
         "ifs",

@@ -93,7 +93,9 @@ def _placed(data: Tables, kind: str) -> Tables:
     if name is None:
         ink = {"ink": next(iter(data["ink"]))} if "ink" in data else {}
         made: Tables = {"kind": "flower", "leaf": dict(ink)}
-        if kind == "path":
+        if kind == "lsystem":
+            made = {"kind": kind, "system": "koch-snowflake", **ink}
+        elif kind == "path":
             made = {"kind": kind, "d": PATH, **ink}
         elif kind == "rosette":
             made = {"kind": kind, "elements": [{"curve": {"kind": "circle"}, **ink}]}
@@ -130,6 +132,7 @@ def _curve(kind: str) -> Put:
             return known[0]["curve"]  # type: ignore[no-any-return]
         start: dict[str, Tables] = {
             "polar": {"waves": [[8, 0.1, 0.0]]},
+            "lsystem": {"system": "koch-snowflake"},
             "path": {"d": PATH},
             "points": {"points": [[0.0, 0.0], [1.0, 0.0], [0.5, 1.0]]},
             "parametric": {"x": [[1, 1.0, 20.0]], "y": [[2, 1.0, 0.0]]},

@@ -24,12 +24,13 @@ from typing import Annotated, Any
 
 from batik_vector.artwork import Overlap
 from batik_vector.fields import HIDDEN, Between, LengthUnit, OneOf, Says, Several
-from batik_vector.geometry.curves import CURVES, YAxis
+from batik_vector.geometry.curves import CURVES, Origin, YAxis
 from batik_vector.geometry.maps import VARIATIONS
 from batik_vector.geometry.regions import FillRule
 from batik_vector.library.features import FEATURES
 from batik_vector.recipe.border import BorderSpec, Corner, Ends, Facing, RailSpec
 from batik_vector.recipe.drawing import Dressing, Svg
+from batik_vector.recipe.lsystem import Grown, Growth
 from batik_vector.recipe.model import ClothSpec, InkSpec, Placement, Recipe, YardageSpec
 from batik_vector.recipe.motif import (
     MOTIFS,
@@ -265,6 +266,9 @@ def page() -> str:
             lines += composed(name, motif, look)
     lines += section("plate", Plate, 3, look - {"gap"})
     lines += section("isen", Isen, 3, look - {"treatment"})
+    lines += section('kind = "lsystem"', Grown, 3, look)
+    lines += words("origin (of an L-system)", Origin)
+    lines += section("lsystem.marks", Growth, 4, look)
     lines += ["### The look of every element", ""]
     lines += table(Dress)
     lines += words("treatment", Treatment)

@@ -16,8 +16,8 @@ from batik_vector.values import frozen
 AnyCurve: TypeAlias = Annotated[Curve, OneOf(lambda: CURVES, "curve")]
 
 
-Ring: TypeAlias = tuple[int, float, float, float, float, bool]
-"""Count, radius, turn, arc, spin and mirror of an element: what says where its curve is drawn."""
+Ring: TypeAlias = tuple[int, float, float, float, float, bool, bytes]
+"""Count, radius, turn, arc, spin, mirror and poses of an element: what says where its curve is drawn."""
 
 
 @frozen(kw_only=True)
@@ -63,7 +63,7 @@ class Element(Dress):
     @property
     def ring(self) -> Ring:
         """What says where the curve is drawn."""
-        return self.count, self.radius, self.turn, self.arc, self.spin, self.mirror
+        return self.count, self.radius, self.turn, self.arc, self.spin, self.mirror, b""
 
 
 def dressed(

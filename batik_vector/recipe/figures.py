@@ -90,11 +90,14 @@ Look: TypeAlias = tuple[Curve, FillRule, int, float]
 """What a curve's geometry hangs on: the curve, its fill rule, its contours, the tolerance."""
 
 
-def copies_of(count: int, radius: float, turn: float, arc: float, spin: float, mirror: bool) -> Affines:
-    """Return where the copies of an element are drawn: see :class:`Element`."""
+def copies_of(
+    count: int, radius: float, turn: float, arc: float, spin: float, mirror: bool, poses: bytes = b""
+) -> Affines:
+    """Return where the copies of an element are drawn, at each of its poses: see :class:`Element`."""
     shift = Affine.translation((radius, 0)) @ Affine.turn(spin)
     turned = turns([turn + arc * k / count for k in range(count)])
-    return (turned.after(Affines.of([IDENTITY, Affine.mirror(0)])) if mirror else turned) @ shift
+    copies = (turned.after(Affines.of([IDENTITY, Affine.mirror(0)])) if mirror else turned) @ shift
+    return Affines(np.frombuffer(poses).reshape(-1, 6)).after(copies) if poses else copies
 
 
 @functools.lru_cache(maxsize=128)
@@ -122,7 +125,7 @@ def _outlined(
     )
     areas = np.empty(0, dtype=object)
     if traced.rings:
-        region = settle(traced.rings, fill)
+        region = settle(traced.rings, fill) if traced.areas is None else traced.areas
         areas = _bands([Affine.scale(k).apply(region) for k in scales])
     return areas, lines
 

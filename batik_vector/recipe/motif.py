@@ -29,6 +29,7 @@ from batik_vector.recipe.element import Ring as Ring
 from batik_vector.recipe.element import dressed
 from batik_vector.recipe.look import Dress as Dress
 from batik_vector.recipe.look import Treatment as Treatment
+from batik_vector.recipe.lsystem import Grown
 from batik_vector.recipe.motifs.butterfly import ButterflyMotif, PolarButterfly
 from batik_vector.recipe.motifs.composing import Composed
 from batik_vector.values import frozen
@@ -221,12 +222,13 @@ MOTIFS: dict[str, type] = {
     "rosette": Rosette,
     "path": PathMotif,
     "svg": Svg,
+    "lsystem": Grown,
     "butterfly": ButterflyMotif,
     "polar-butterfly": PolarButterfly,
 }
 """The catalogue of kinds: each has ``parts()``, and ``keys()`` that say where these stand in its table."""
 
-Motif: TypeAlias = Flower | Rosette | PathMotif | Svg | Composed
+Motif: TypeAlias = Flower | Rosette | PathMotif | Svg | Grown | Composed
 
 
 def most_contours(motif: Motif) -> tuple[str, int]:

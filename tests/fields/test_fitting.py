@@ -133,6 +133,8 @@ BY_HAND: dict[type, dict[str, Any]] = {
     FunctionCurve: {"function": circle},
     CURVES["path"]: {"d": "M0 0L2 0L1 2Z"},
     CURVES["points"]: {"points": ((0.0, 0.0), (2.0, 0.0), (1.0, 2.0))},
+    CURVES["lsystem"]: {"system": "dragon"},
+    MOTIFS["lsystem"]: {"system": "koch-snowflake"},
     MOTIFS["path"]: {"d": "M0 0L2 0L1 2Z"},
     LAYOUTS["ifs"]: {"maps": (MapSpec(),)},
 }

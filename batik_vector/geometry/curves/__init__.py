@@ -8,6 +8,7 @@ from batik_vector.geometry.curves.butterfly import Butterfly
 from batik_vector.geometry.curves.circle import Circle
 from batik_vector.geometry.curves.harmonic import Parametric, Polar
 from batik_vector.geometry.curves.hypocycloid import Hypocycloid
+from batik_vector.geometry.curves.lsystem import LSystem, Origin
 from batik_vector.geometry.curves.path import PathCurve, YAxis
 from batik_vector.geometry.curves.points import PointsCurve
 from batik_vector.geometry.curves.polar_function import polar
@@ -36,6 +37,7 @@ CURVES: dict[str, type[Curve]] = {
     "wave": Wave,
     "path": PathCurve,
     "points": PointsCurve,
+    "lsystem": LSystem,
 }
 
 __all__ = [
@@ -46,6 +48,8 @@ __all__ = [
     "Curve",
     "FunctionCurve",
     "Hypocycloid",
+    "LSystem",
+    "Origin",
     "OutlineCurve",
     "Parametric",
     "PathCurve",

@@ -13,7 +13,7 @@ from batik_vector.geometry.curves.function import Called, corners_of
 from batik_vector.geometry.paths.data import path_of
 from batik_vector.geometry.paths.outline import CURVE, LINE, MOVE, Outline
 from batik_vector.geometry.paths.splines import through
-from batik_vector.geometry.sampling import Array, Points
+from batik_vector.geometry.sampling import Array, Geometries, Points
 from batik_vector.values import frozen
 
 
@@ -57,6 +57,13 @@ class Curve:
 
     def outline(self) -> Outline | None:
         """Return the curve as lines and cubic Béziers, if it is made of them; it is then traced as such."""
+        return None
+
+    def region(self, tolerance: float) -> Geometries | None:
+        """Return the curve's region as valid polygons, where it is known without settling any rings.
+
+        It is then traced as their outlines, to the tolerance (the curve's units).
+        """
         return None
 
     @staticmethod

@@ -7,6 +7,7 @@ from itertools import compress
 from typing import Annotated
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from batik_vector.errors import GeometryError
@@ -14,7 +15,16 @@ from batik_vector.fields import Between, given
 from batik_vector.geometry.curves.base import Curve, knots_of, points_at
 from batik_vector.geometry.paths.outline import Outline
 from batik_vector.geometry.paths.sampling import sampled
-from batik_vector.geometry.sampling import REFINE_SHARE, Array, Indices, Points, deviation, refine, thin
+from batik_vector.geometry.sampling import (
+    REFINE_SHARE,
+    Array,
+    Geometries,
+    Indices,
+    Points,
+    deviation,
+    refine,
+    thin,
+)
 from batik_vector.values import frozen
 
 LEAST_CORNERS = 6
@@ -47,6 +57,8 @@ class Trace:
 
     strands: list[Points]
     rings: list[Points]
+    areas: Geometries | None = None
+    """The region, where the curve knows it: the rings are its outlines."""
 
 
 def trace(curve: Curve, tolerance: float | Callable[[Points], Array]) -> Trace:
@@ -72,6 +84,9 @@ def trace(curve: Curve, tolerance: float | Callable[[Points], Array]) -> Trace:
     given(curve, Curve, "curve")
     if not callable(tolerance):
         tolerance = given(tolerance, Annotated[float, Between(*TOLERANCES)], "tolerance")
+    known = _region(curve, tolerance)
+    if known is not None:
+        return known
     outline = curve.outline()
     if outline is not None:
         return _outlined(curve, outline, tolerance)
@@ -85,6 +100,23 @@ def trace(curve: Curve, tolerance: float | Callable[[Points], Array]) -> Trace:
         strands.append(turned)
         rings += [turned] if single else [_closed(turned[_within(t, loop)]) for loop in loops]
     return Trace(strands, [ring for ring in rings if len(ring) > 3])
+
+
+def _region(curve: Curve, tolerance: float | Callable[[Points], Array]) -> Trace | None:
+    """Trace a curve that knows its region; where a map will stretch it, to the least tolerance anywhere."""
+    if callable(tolerance):
+        rough = curve.outline()
+        if rough is None or curve.region(float(np.inf)) is None:
+            return None
+        tolerance = float(np.min(tolerance(rough.points)))
+    areas = curve.region(tolerance)
+    if areas is None:
+        return None
+    if shapely.is_empty(areas).all():
+        raise GeometryError(f"{type(curve).__name__}: its region is empty, expected an area")
+    points, ring = shapely.get_coordinates(shapely.get_rings(areas), return_index=True)
+    rings = np.split(points, np.flatnonzero(np.diff(ring)) + 1)
+    return Trace(rings, rings, areas)
 
 
 def _outlined(curve: Curve, outline: Outline, tolerance: float | Callable[[Points], Array]) -> Trace:

@@ -42,7 +42,9 @@ class Branches:
         depth = np.cumsum(opened.astype(np.int32) - closed.astype(np.int32), dtype=np.int32)
         deepest = int(depth.max(initial=0))
         if deepest > DEEPEST:
-            raise TooLargeError(f"branches are nested {deepest:,} deep, more than {DEEPEST:,}: expected a lower level")
+            raise TooLargeError(
+                f"branches are nested {deepest:,} deep, more than {DEEPEST:,}: expected a lower level"
+            )
         order: Indices = np.argsort(depth.astype(np.int16), kind="stable")
         bounds: Indices = np.searchsorted(depth[order], np.arange(deepest + 2)).astype(np.intp)
         return Branches(order, bounds, opened[order])

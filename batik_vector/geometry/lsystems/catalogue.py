@@ -31,7 +31,9 @@ NAMED = MappingProxyType(
         "sierpinski-arrowhead": Named(
             "A", ("A -> B-A-B", "B -> A+B+A"), 60, f"Sierpiński (1915); {ABOP}, Fig. 1.10b", 6, draws="AB"
         ),
-        "dragon": Named("A", ("A -> A+B", "B -> A-B"), 90, f"Davis & Knuth (1970); {ABOP}, Fig. 1.10a", 10, draws="AB"),
+        "dragon": Named(
+            "A", ("A -> A+B", "B -> A-B"), 90, f"Davis & Knuth (1970); {ABOP}, Fig. 1.10a", 10, draws="AB"
+        ),
         "hilbert": Named(
             "X", ("X -> -YF+XFX+FY-", "Y -> +XF-YFY-FX+"), 90, f"Hilbert (1891); {ABOP}, §1.4.2", 4
         ),

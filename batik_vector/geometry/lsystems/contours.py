@@ -1,8 +1,8 @@
 """Bodies of lines: the outlines of strokes, written down by walking round them.
 
-A body is walked with itself on the left, along its lines at half their width to the right. Where the walk turns
-right the two edges meet in one point; where it turns left an arc goes round the outer side, and where a line
-ends the arc is half a circle.
+A body is walked with itself on the left, along its lines at half their width to the right. Where the walk
+turns right the two edges meet in one point; where it turns left an arc goes round the outer side, and where a
+line ends the arc is half a circle.
 """
 
 from __future__ import annotations
@@ -22,7 +22,9 @@ SHARP = 2.6
 """Right turns of more (radians) meet far from their corner: the walk then goes through the corner itself."""
 
 
-def around(corners: Complex, arrive: Complex, leave: Complex, radius: Array, tolerance: float) -> tuple[Points, Indices]:
+def around(
+    corners: Complex, arrive: Complex, leave: Complex, radius: Array, tolerance: float
+) -> tuple[Points, Indices]:
     """Return the points of a walk, and of which corner each is.
 
     Args:
@@ -76,8 +78,8 @@ def bodies(points: Complex, offsets: Indices, widths: Array, tolerance: float) -
     arrive[following] = leave
     outline, owner = around(points[there], arrive, leave, widths[there] / 2, tolerance)
     rings = shapely.linearrings(outline, indices=ring[owner])
-    shapes = shapely.polygons(rings)
-    sound = shapely.is_valid(shapes)
+    shapes: Geometries = np.asarray(shapely.polygons(rings), dtype=object)
+    sound = np.asarray(shapely.is_valid(shapes))
     mended = [settle([shapely.get_coordinates(each)], FillRule.NONZERO) for each in shapes[~sound]]
     return welded(np.concatenate([shapes[sound], *mended]))
 

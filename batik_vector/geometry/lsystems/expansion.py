@@ -69,7 +69,8 @@ def expanded(grammar: Grammar, level: int, seed: int = 0) -> Word:
 def _too_long(level: int, length: int, about: str) -> TooLargeError:
     told = f"{length:,}" if length < 10**9 else f"about 10^{math.floor(math.log10(length))}"
     return TooLargeError(
-        f"level = {level} writes a word of {about}{told} symbols, more than {LONGEST:,}: expected a lower level"
+        f"level = {level} writes a word of {about}{told} symbols, more than {LONGEST:,}: "
+        "expected a lower level"
     )
 
 
@@ -89,7 +90,7 @@ def _alphabet(grammar: Grammar) -> str:
 
 
 def _joined(grammar: Grammar, level: int) -> Word:
-    """Return a word of plain symbols: what each symbol becomes in k steps is joined of what it was in k − 1."""
+    """Return a word of plain symbols: what one becomes in k steps is joined of what others do in k − 1."""
     symbols = _alphabet(grammar)
     code = {symbol: number for number, symbol in enumerate(symbols)}
     body = {code[rule.symbol]: [code[m.symbol] for m in rule.word] for rule in grammar.rules}
@@ -123,7 +124,9 @@ def _rewritten(grammar: Grammar, level: int, seed: int) -> Word:
             values = np.where(kept, values[source], given + table.constant[place])
         codes = table.codes[place]
         if np.isinf(values).any():
-            raise TooLargeError(f"level = {level}: the numbers of its symbols grow past all bounds: expected a lower level")
+            raise TooLargeError(
+                f"level = {level}: the numbers of its symbols grow past all bounds: expected a lower level"
+            )
     return Word(symbols, codes, values if grammar.is_parametric else None)
 
 

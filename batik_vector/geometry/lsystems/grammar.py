@@ -84,14 +84,18 @@ def grammar_of(axiom: str, rules: Sequence[str], draws: str) -> Grammar:
         raise GeometryError(f"rules = a list of {len(rules)}, expected {MOST_RULES} at most")
     for letter in draws:
         if not letter.isalpha() or letter == "f":
-            raise GeometryError(f'draws = "{shortened(draws)}": "{letter}" is no letter but f that could draw a step')
+            raise GeometryError(
+                f'draws = "{shortened(draws)}": "{letter}" is no letter but f that could draw a step'
+            )
     read = tuple(_rule(text, f"rules[{number}]") for number, text in enumerate(rules))
     begin = tuple(_modules(axiom, "", "axiom"))
     if not begin:
         raise GeometryError('axiom = "", expected a word to begin with, such as "F"')
     known = {*TURTLE, *draws, *(rule.symbol for rule in read)}
     words = [("axiom", axiom, begin)]
-    words += [(f"rules[{n}]", text, rule.word) for n, (text, rule) in enumerate(zip(rules, read, strict=True))]
+    words += [
+        (f"rules[{n}]", text, rule.word) for n, (text, rule) in enumerate(zip(rules, read, strict=True))
+    ]
     for key, text, word in words:
         _refuse_unknown(word, known, key, text)
         _refuse_unbalanced(word, key, text)
@@ -111,7 +115,9 @@ def _rule(text: str, key: str) -> Rule:
     except ValueError:
         share = 0.0
     if not 1e-6 <= share <= 1e6:
-        raise _fault(key, text, f'"{shortened(weight)}" is no weight, expected a number from 1e-06 to 1000000')
+        raise _fault(
+            key, text, f'"{shortened(weight)}" is no weight, expected a number from 1e-06 to 1000000'
+        )
     return Rule(symbol, tuple(_modules(body, name or "", key)), share)
 
 
@@ -175,7 +181,8 @@ def _refuse_unknown(word: Sequence[Module], known: set[str], key: str, text: str
             raise _fault(
                 key,
                 text,
-                f'unknown symbol "{module.symbol}": expected one with a rule, one that draws, or one of + - | [ ] ! " f',
+                f'unknown symbol "{module.symbol}": expected one with a rule, one that draws, or one of '
+                '+ - | [ ] ! " f',
             )
 
 
@@ -186,7 +193,9 @@ def _refuse_unbalanced(word: Sequence[Module], key: str, text: str) -> None:
         if depth < 0:
             raise _fault(key, text, 'unbalanced brackets: a "]" closes no branch')
     if depth:
-        raise _fault(key, text, f'unbalanced brackets: {depth} "[" {"is" if depth == 1 else "are"} not closed')
+        raise _fault(
+            key, text, f'unbalanced brackets: {depth} "[" {"is" if depth == 1 else "are"} not closed'
+        )
 
 
 def _fault(key: str, text: str, words: str) -> GeometryError:

@@ -1,9 +1,9 @@
 """Strokes on a lattice: lines of equal steps in four or six directions, welded without a single overlay.
 
 Such lines meet in points of the lattice and nowhere else, and keep clear of one another by at least the
-lattice's height. So the outline of their welded body is known from which steps leave each point: it is the walk
-round them, at each point on to the next step anticlockwise. Every step is taken once each way, and all corners
-that are alike are worked out once.
+lattice's height. So the outline of their welded body is known from which steps leave each point: it is the
+walk round them, at each point on to the next step anticlockwise. Every step is taken once each way, and all
+corners that are alike are worked out once.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ def on_lattice(points: Complex, offsets: Indices, width: float, tolerance: float
 
 
 def _cells(placed: Complex, ends: Indices, sides: int) -> tuple[Whole, Whole, Whole] | None:
-    """Return the places of points along both axes and the directions of steps, or None where they are none."""
+    """Return the places of points along both axes and the ways of steps, or None where they are none."""
     axis = AXES[sides]
     b = placed.imag / axis.imag
     a = placed.real - b * axis.real if axis.real else placed.real
@@ -90,7 +90,7 @@ def _steps(sides: int) -> list[tuple[int, int]]:
 
 @frozen(eq=False)
 class _Lattice:
-    """Lines on a lattice: i and j of their points; from which of them steps leave, and in which directions."""
+    """Lines on a lattice: i and j of their points; from which of them steps leave, and which ways."""
 
     sides: int
     origin: complex
@@ -116,11 +116,16 @@ class _Lattice:
         return np.asarray((self.i - self.i.min()) * up + (self.j - self.j.min())), across * up
 
     def path(self) -> tuple[Complex, Whole, Whole, Indices]:
-        """Return the corners of the walk along a single strand and back, and the directions before and behind."""
+        """Return the corners of the walk along a single strand and back, and the ways before and behind."""
         way, back = self.way, (self.way + self.sides // 2) % self.sides
         arrive = np.concatenate([way, back[::-1]])
         corners = self.at(self.i, self.j)
-        return np.concatenate([corners[1:], corners[-2::-1]]), arrive, np.roll(arrive, -1), np.array([len(arrive)])
+        return (
+            np.concatenate([corners[1:], corners[-2::-1]]),
+            arrive,
+            np.roll(arrive, -1),
+            np.array([len(arrive)]),
+        )
 
     def walks(self) -> tuple[Complex, Whole, Whole, Indices]:
         """Return the corners of all walks, ring by ring, and how many corners each ring has."""
@@ -158,7 +163,9 @@ class _Lattice:
         each = np.arange(self.sides**2)
         direction = self.unit / abs(self.unit) * np.exp(2j * math.pi * each / self.sides)
         arrives, leaves = direction[each // self.sides], direction[(each // self.sides + each) % self.sides]
-        offset, owner = around(np.zeros(len(each), complex), arrives, leaves, np.full(len(each), radius), tolerance)
+        offset, owner = around(
+            np.zeros(len(each), complex), arrives, leaves, np.full(len(each), radius), tolerance
+        )
         count = np.bincount(owner, minlength=len(each))
         begin = np.cumsum(count) - count
         mine = count[kind]
@@ -182,8 +189,8 @@ def _next_way(sides: int) -> Whole:
 def _rings(following: Whole) -> tuple[Indices, Indices]:
     """Return all directed steps ring by ring, each ring from its least number on, and the size of each.
 
-    A list is followed step by step: NumPy would double pointers for the twenty rounds that a ring of a million
-    steps takes, each of them dearer than this loop's twentieth.
+    A list is followed step by step: NumPy would double pointers for the twenty rounds that a ring of a
+    million steps takes, each of them dearer than this loop's twentieth.
     """
     chain: list[int] = following.tolist()
     left = bytearray(b"\1") * len(chain)
@@ -207,10 +214,10 @@ def _with_holes(rings: Geometries) -> Geometries:
     exterior, inner = rings[shells], rings[~shells]
     if len(exterior) == 1:
         return np.array([shapely.polygons(exterior[0], inner if len(inner) else None)], dtype=object)
-    outer = shapely.polygons(exterior)
+    outer: Geometries = np.asarray(shapely.polygons(exterior), dtype=object)
     spot = shapely.points(shapely.get_coordinates(shapely.get_point(inner, 0)))
     hole, shell = shapely.STRtree(outer).query(spot, predicate="within")
-    area: Array = shapely.area(outer)
+    area: Array = np.asarray(shapely.area(outer))
     order = np.lexsort((area[shell], hole))
     mine: list[list[int]] = [[] for _ in outer]
     into = dict(zip(hole[order][::-1].tolist(), shell[order][::-1].tolist(), strict=True))

@@ -1,11 +1,15 @@
 """The turtle: from a word to the lines that it draws, in bulk.
 
-Prusinkiewicz & Lindenmayer, *The Algorithmic Beauty of Plants* (1990), §1.3 and §1.6: letters draw a step, ``f``
-makes one and draws nothing, ``+`` turns left and ``-`` right, ``|`` turns about, brackets begin and end a branch;
-``!`` makes what follows thinner and ``"`` shorter. Every other symbol is passed over.
+Prusinkiewicz & Lindenmayer, *The Algorithmic Beauty of Plants* (1990), §1.3 and §1.6: letters draw a step,
+``f`` makes one and draws nothing, ``+`` turns left and ``-`` right, ``|`` turns about, brackets begin and end
+a branch; ``!`` makes what follows thinner and ``"`` shorter. Every other symbol is passed over.
 """
 
 from __future__ import annotations
+
+from collections.abc import Callable
+from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -141,13 +145,13 @@ def _directions(word: Word, gait: Gait, branches: Branches | None) -> Complex:
     turn = np.array([{"+": 1, "-": -1}.get(each, 0) for each in word.symbols] or [0])
     whole: NDArray[np.int64] = turn[word.codes]
     about = _which(word, "|")
-    extra = None
+    extra: Array | None = None
     if word.values is not None:
         told = ~np.isnan(word.values) & (whole != 0)
         if told.any():
             degrees = np.where(told, np.nan_to_num(word.values) * whole, 0.0)
             whole = np.where(told, 0, whole)
-            extra = branches.sums(degrees) if branches else np.cumsum(degrees)
+            extra = branches.sums(degrees) if branches else np.asarray(np.cumsum(degrees))
     turned = branches.sums(whole) if branches else np.cumsum(whole)
     if about.any():
         halves = about.astype(np.int64)
@@ -160,7 +164,7 @@ def _directions(word: Word, gait: Gait, branches: Branches | None) -> Complex:
     return np.where(flipped % 2 == 1, -unit, unit) if about.any() else unit
 
 
-def _units(degrees: Array) -> Complex:
+def _units(degrees: NDArray[Any]) -> Complex:
     """Return directions; those of whole quarters, thirds and sixths of a turn have exact halves and ones."""
     angle = np.radians(np.fmod(degrees, FULL))
     unit: Complex = np.exp(1j * angle)
@@ -172,7 +176,7 @@ def _units(degrees: Array) -> Complex:
     return np.asarray(x + 1j * y)
 
 
-def _factors(word: Word, symbol: str, usual: float, sums: object) -> Array | None:
+def _factors(word: Word, symbol: str, usual: float, sums: Callable[[Array], Array]) -> Array | None:
     """Return the product of all factors on the way to each symbol, or None where there are none."""
     mine = _which(word, symbol)
     if not mine.any():
@@ -183,7 +187,6 @@ def _factors(word: Word, symbol: str, usual: float, sums: object) -> Array | Non
         factor[told] = word.values[told]
     if not (factor > 0).all():
         raise GeometryError(f'a factor of {factor.min():g} at "{symbol}", expected one above 0')
-    assert callable(sums)
     return np.asarray(np.exp(sums(np.log(factor))))
 
 
@@ -218,7 +221,7 @@ def _tapered(
     order = branches.order if branches else np.arange(count)
     bounds = branches.bounds if branches else np.array([0, count])
     before, behind = np.ones(count), np.ones(count)
-    for low, high in zip(bounds[:-1], bounds[1:], strict=True):
+    for low, high in pairwise(bounds.tolist()):
         mine = order[low:high]
         opens = branches.opens[low:high] if branches else np.zeros(len(mine), bool)
         begins = np.flatnonzero(opens | (np.arange(len(mine)) == 0))
