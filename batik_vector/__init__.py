@@ -16,6 +16,8 @@ from typing import TYPE_CHECKING, Any
 from batik_vector._version import __version__
 
 if TYPE_CHECKING:
+    from batik_vector.analysis import Analysis as Analysis
+    from batik_vector.analysis import analyse as analyse
     from batik_vector.artwork import Artwork as Artwork
     from batik_vector.artwork import Cell as Cell
     from batik_vector.artwork import Ink as Ink
@@ -58,6 +60,7 @@ if TYPE_CHECKING:
     from batik_vector.recipe.motif import Rosette as Rosette
 
 _HOMES = {
+    "batik_vector.analysis": ("Analysis", "analyse"),
     "batik_vector.artwork": ("Artwork", "Cell", "Ink", "Layer", "violations"),
     "batik_vector.recipe.border": ("BorderSpec", "RailSpec"),
     "batik_vector.certificate": ("Certificate", "certify"),

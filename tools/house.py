@@ -39,7 +39,7 @@ FLOORS: Floors = _floors(
     "tiling export",
     "importing",
     "recipe certificate",
-    "compiling drafting",
+    "compiling drafting analysis",
     "making",
     "__init__",
     "library",

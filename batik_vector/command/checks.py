@@ -97,7 +97,7 @@ def check_source(source: str, overrides: Sequence[str], wishes: Wishes, tell: Te
         RecipeError: where it cannot be read, or the call asks of it what it cannot give.
         SeamError: where a recipe has no clean seam.
     """
-    if _is_drawing(source):
+    if is_drawing(source):
         if overrides:
             words = f"is measured as it is drawn, which --set {overrides[0]} cannot change: give its recipe"
             raise _fault(source, words)
@@ -109,7 +109,7 @@ def _fault(source: str, words: str) -> RecipeError:
     return RecipeError([Fault(words, source=source)])
 
 
-def _is_drawing(source: str) -> bool:
+def is_drawing(source: str) -> bool:
     """Whether a file is an SVG, by its name or by how it begins."""
     path = Path(source)
     if scheme_of(source)[0]:

@@ -18,11 +18,11 @@ import numpy as np
 from batik_vector.artwork import Artwork, Cell, DropAxis, RawArtwork
 from batik_vector.errors import GeometryError, TooLargeError
 from batik_vector.geometry.paths.matrix import Matrix, inverse_of, times
-from batik_vector.geometry.paths.outline import CURVE, Outline, joined
+from batik_vector.geometry.paths.outline import CONTROL, CURVE, Outline, joined
 from batik_vector.importing.bodies import bodies_on_rim
 from batik_vector.importing.clips import clipped
 from batik_vector.importing.document import Document, DrawingError, children, load, local, parse
-from batik_vector.importing.inks import Marks, layers_of, painted
+from batik_vector.importing.inks import Marks, is_cloth, layers_of, painted
 from batik_vector.importing.page import Page
 from batik_vector.importing.painting import Bodies
 from batik_vector.importing.polylines import Lines, flattened
@@ -55,6 +55,7 @@ class Reading:
     file says that this program wrote it, ``curved`` whether it draws any curves. ``bodies`` are what it
     paints along the edges of its page, and ``unmeasured`` says what no certificate can answer for. ``onto``
     leads from the artwork's mm to the user units of the file's root, None where its page is not the tile.
+    ``nodes`` are those of the paths that it draws, the cloth's left out.
     """
 
     artwork: Artwork
@@ -65,6 +66,7 @@ class Reading:
     bodies: Bodies
     unmeasured: tuple[str, ...] = ()
     onto: Matrix | None = None
+    nodes: int = 0
 
 
 @frozen(eq=False)
@@ -123,7 +125,9 @@ def read_svg(
     curved = any((shape.outline.kinds == CURVE).any() for shape in marks.shapes)
     notes, unmeasured = tuple(document.notes), tuple(document.unmeasured)
     onto = inverse_of(times(_flip(page, cell, bleed), page.matrix)) if page.whole else None
-    return Reading(artwork, (page.width, page.height), notes, found.ours, curved, bodies, unmeasured, onto)
+    size = (page.width, page.height)
+    nodes = sum(int((s.outline.kinds != CONTROL).sum()) for s in marks.shapes if not is_cloth(s.label))
+    return Reading(artwork, size, notes, found.ours, curved, bodies, unmeasured, onto, nodes)
 
 
 def read_marks(

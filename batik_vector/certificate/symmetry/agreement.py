@@ -110,13 +110,13 @@ class Matcher:
         modelling by registration of multiple range images", 1992).
         """
         every, some = (
-            _moved(self.few, matrix),
-            _moved(self.few[np.arange(0, len(self.few.kind), FIRST)], matrix),
+            moved(self.few, matrix),
+            moved(self.few[np.arange(0, len(self.few.kind), FIRST)], matrix),
         )
         reach = self.far.reach
         for _ in range(10):
-            near, moved = (self.far, some) if reach > self.near.reach else (self.near, every)
-            feet = near.feet(moved.xy + shift, moved.kind, moved.heading)
+            near, image = (self.far, some) if reach > self.near.reach else (self.near, every)
+            feet = near.feet(image.xy + shift, image.kind, image.heading)
             used = feet.distance <= reach
             if used.sum() < 3:
                 break
@@ -223,8 +223,8 @@ class Matcher:
         distance = np.empty(count)
         for begin in range(0, count, CHUNK):
             part = slice(begin, begin + CHUNK)
-            moved = _moved(self.all[part], matrix)
-            distance[part] = self._places.distances(moved.xy + shift, moved.kind, moved.heading)
+            image = moved(self.all[part], matrix)
+            distance[part] = self._places.distances(image.xy + shift, image.kind, image.heading)
         rest = np.flatnonzero(np.isinf(distance))
         if at_most is not None:
             distance[rest] = 0
@@ -233,8 +233,8 @@ class Matcher:
         return distance
 
     def _distances(self, samples: Samples, matrix: Matrix, shift: Points) -> NDArray[np.float64]:
-        moved = _moved(samples, matrix)
-        return self.near.distances(moved.xy + shift, moved.kind, moved.heading)
+        image = moved(samples, matrix)
+        return self.near.distances(image.xy + shift, image.kind, image.heading)
 
     def _alone(self, xy: Points, kind: int) -> NDArray[np.float64]:
         """Return how far points are from all edges of a kind, whichever way these run."""
@@ -253,7 +253,7 @@ class Matcher:
         return np.asarray(distance.reshape(len(xy), -1).min(axis=1))
 
 
-def _moved(samples: Samples, matrix: Matrix) -> Samples:
+def moved(samples: Samples, matrix: Matrix) -> Samples:
     """Return points turned by a linear part; a reflection would leave the covered side on the right."""
     sign = np.sign(np.linalg.det(matrix))
     return replace(samples, xy=samples.xy @ matrix.T, heading=sign * (samples.heading @ matrix.T))

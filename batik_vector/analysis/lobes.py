@@ -1,0 +1,86 @@
+"""Lobes: a flower drawn as one mark, petals welded to its heart, is taken apart into petals and heart."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import shapely
+from shapely.geometry.base import BaseGeometry
+
+from batik_vector.analysis.marks import BARE, Indices, Marks, joined_with, measured
+
+FEWEST, SURE = 3, 5
+"""Lobes at the least, and how many a mark has that is a flower even where it stands in a ring itself."""
+
+LEAST_SIZE = 0.1
+"""Of the drawing's largest mark: smaller ones are not taken apart."""
+
+RADII = 96
+"""Circles on which lobes are counted."""
+
+DEEP = 0.15
+"""How far apart, as a share of the reach, the circles have to be that cross the same lobes."""
+
+HULL = 0.9
+"""The share of its convex hull that a mark with lobes fills at the most."""
+
+EVEN = 0.42
+"""The part of the whole turn between two lobes at the most."""
+
+ROUND = 32
+"""Segments of a quarter of the circle at which lobes are cut."""
+
+
+def taken_apart(marks: Marks, ringed: Indices) -> Marks:
+    """Return the marks with lobes and hearts in place of flowers that are one mark.
+
+    Args:
+        marks: of the drawing.
+        ringed: the numbers of those that stand in rings, as petals of some flower: only what has ``SURE`` lobes is
+            taken for a flower there.
+    """
+    if not len(marks):
+        return marks
+    fewest = np.full(len(marks), FEWEST)
+    fewest[ringed] = SURE
+    hollow = (marks.shapes[:, 2] < HULL) & (marks.sizes >= LEAST_SIZE * marks.sizes.max()) & (marks.inks != BARE)
+    parts: list[BaseGeometry] = []
+    inks: list[int] = []
+    whole = np.ones(len(marks), bool)
+    for number in np.flatnonzero(hollow).tolist():
+        found = _parts(marks.outlines[number], marks.places[number], int(fewest[number]))
+        if found:
+            whole[number] = False
+            parts += found
+            inks += [int(marks.inks[number])] * len(found)
+    if not parts:
+        return marks
+    return joined_with(marks[whole], measured(np.array(parts, dtype=object), np.array(inks, np.intp)))
+
+
+def _parts(outline: BaseGeometry, centre: np.ndarray[tuple[int], np.dtype[np.float64]], fewest: int) -> list[BaseGeometry]:
+    """Return the lobes of an outline about a point and the heart between them; nothing where there are no lobes."""
+    ring = shapely.get_coordinates(outline)
+    away = np.hypot(*(ring - centre).T)
+    radii = np.linspace(away.min(), away.max(), RADII + 2)[1:-1]
+    beyond = away[:-1, None] > radii
+    lobes = (beyond & ~np.roll(beyond, 1, axis=0)).sum(axis=0)
+    # The run of circles with the most lobes, weighed with how deep they reach.
+    cuts = np.concatenate([[0], np.flatnonzero(np.diff(lobes)) + 1, [RADII]])
+    runs = [(int(lobes[a]) * float(b - a), int(a), int(b)) for a, b in zip(cuts[:-1], cuts[1:], strict=True)]
+    runs = [run for run in runs if lobes[run[1]] >= fewest and (run[2] - run[1]) / RADII >= DEEP]
+    if not runs or not shapely.contains_xy(outline, *centre):
+        return []
+    radius = float(radii[max(runs)[1]])
+    disc = shapely.Point(centre).buffer(radius, quad_segs=ROUND)
+    pieces = [piece for piece in shapely.get_parts(shapely.difference(outline, disc)) if piece.geom_type == "Polygon"]
+    largest = max(piece.area for piece in pieces)
+    pieces = [piece for piece in pieces if piece.area > 0.02 * largest]
+    middles = shapely.get_coordinates(shapely.centroid(pieces)) - centre
+    angles = np.sort(np.arctan2(middles[:, 1], middles[:, 0]))
+    gaps = np.diff(angles, append=angles[0] + 2 * math.pi)
+    if len(pieces) < fewest or gaps.max() > EVEN * 2 * math.pi:
+        return []
+    heart = shapely.intersection(outline, disc)
+    return [*pieces, *(piece for piece in shapely.get_parts(heart) if piece.geom_type == "Polygon")]
