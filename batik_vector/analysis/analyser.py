@@ -10,12 +10,12 @@ import shapely
 
 from batik_vector.analysis.dimension import box_dimension
 from batik_vector.analysis.figures import coverage, line_widths, nodes
-from batik_vector.analysis.flower import Flower, flower_of
+from batik_vector.analysis.flower import TIPS, Flower, flower_of
 from batik_vector.analysis.lobes import taken_apart
 from batik_vector.analysis.marks import Indices, Marks, kinds_of, marks_of
 from batik_vector.analysis.report import NONE, Analysis, Symmetry
 from batik_vector.analysis.report import Layer as LayerFound
-from batik_vector.analysis.rings import Rosette, members, rosettes
+from batik_vector.analysis.rings import rosettes
 from batik_vector.artwork import Artwork, Geometries
 from batik_vector.artwork import Layer as InkLayer
 from batik_vector.certificate.symmetry.rosette import found_rosette
@@ -110,7 +110,7 @@ def _flower(marks: Marks) -> tuple[Indices | None, tuple[Flower, int] | None, st
     if kinds is None:
         return None, None, f"{len(marks):,} marks of more than {MOST_KINDS} shapes: no pattern of like marks"
     found = rosettes(marks, kinds)
-    apart = taken_apart(marks, _ringed(found))
+    apart = taken_apart(marks, found)
     if apart is not marks:
         marks = apart
         kinds = kinds_of(marks, MOST_KINDS)
@@ -126,12 +126,8 @@ def _flower(marks: Marks) -> tuple[Indices | None, tuple[Flower, int] | None, st
     return kinds, None, f"{counts}, and no three alike that stand round a point as petals do"
 
 
-def _ringed(found: Sequence[Rosette]) -> Indices:
-    return np.unique(members([ring for rosette in found for ring in rosette.rings]))
-
-
 def _within(layer: InkLayer, centre: tuple[float, float], reach: float) -> InkLayer:
-    """Return what of a layer belongs to a flower: what lies within its reach, or stands out of it a little."""
+    """Return what of a layer belongs to a flower: what lies within its reach."""
 
     def kept(marks: Geometries) -> Geometries:
         marks = np.asarray(marks, dtype=object)
@@ -140,8 +136,7 @@ def _within(layer: InkLayer, centre: tuple[float, float], reach: float) -> InkLa
         xy, owner = shapely.get_coordinates(marks, return_index=True)
         away = np.hypot(*(xy - centre).T)
         first = np.searchsorted(owner, np.arange(len(marks)))
-        middle = np.hypot(*(shapely.get_coordinates(shapely.centroid(marks)) - centre).T)
-        return marks[(np.maximum.reduceat(away, first) <= 1.15 * reach) & (middle < reach)]
+        return marks[np.maximum.reduceat(away, first) <= TIPS * reach]
 
     return InkLayer(layer.ink, kept(layer.areas), kept(layer.lines))
 

@@ -14,7 +14,6 @@ from collections.abc import Sequence
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
 
 from batik_vector.analysis.marks import Indices, Marks, Numbers, Place, alike
 from batik_vector.analysis.petal_shape import PetalShape, petal_shape
@@ -26,6 +25,16 @@ AS_LARGE, AS_LONG = 0.3, 0.2
 
 SLIM, POINTING = 0.55, math.cos(math.radians(2 * 35))
 """The breadth of a pistil at the most, as a share of its length, and how far from the radius it may point."""
+
+FOLLOWING, PEEPING, TIPS = 1.12, 0.9, 1.005
+"""Where a farther layer of petals begins at the most, and a ring of leaves, and where what lies within the tips ends,
+against the reach of the petals."""
+
+CRUMB = 0.004
+"""The area of marks, as a share of a petal's, below which they are what cuts have left over."""
+
+FIELD = 0.2
+"""The area of a petal's inner field, in another ink, at the least, as a share of the petal's."""
 
 SMALL = 0.4
 """The area of a pistil at the most, as a share of a petal's."""
@@ -55,7 +64,8 @@ class Role(enum.StrEnum):
 class Part:
     """A ring in its flower: its marks by number, its role, and its radii (mm, medians over the marks).
 
-    ``on`` is the number of the part on whose marks these lie, ``inset`` says that they repeat that part's shape.
+    ``on`` is the number of the lowest part on whose marks these lie, ``inset`` says that they are the inner fields of petals:
+    the same element in another ink.
     """
 
     marks: Indices
@@ -80,15 +90,14 @@ class PetalLayer:
 
 @frozen(eq=False)
 class Flower:
-    """A flower about ``centre`` (mm), reaching ``reach`` mm. ``marks`` are all that belong to it, by number.
+    """A flower about ``centre`` (mm), reaching ``reach`` mm.
 
-    ``layers`` go from the outermost inwards. ``pistils`` are how many a petal has, of the layers that have any.
+    ``layers`` go from the outermost inwards. ``pistils`` are the numbers of them that petals have, in the layers that have any.
     ``elements`` is the number of types among what is repeated.
     """
 
     centre: Place
     reach: float
-    marks: Indices
     parts: tuple[Part, ...]
     layers: tuple[PetalLayer, ...]
     pistils: tuple[float, ...]
@@ -98,22 +107,45 @@ class Flower:
 def flower_of(marks: Marks, rosette: Rosette) -> Flower | None:
     """Return the flower about a point, None where nothing there is a petal."""
     inner, outer = _radii(marks, rosette.centre)
-    rings = [ring for ring in rosette.rings if np.median(inner[ring.members]) < 0.98 * rosette.reach]
-    reach = max((float(np.median(outer[ring.members])) for ring in rings if ring.cover >= COVER), default=0.0)
-    rings = [ring for ring in rings if np.median(outer[ring.members]) <= 1.02 * reach]
+    rings, reach = _reaching(marks, rosette, inner, outer)
     if not rings:
         return None
     near = np.hypot(*(marks.places - rosette.centre).T)
-    mine = np.flatnonzero((near < reach) & (outer <= 1.15 * reach))
-    members = _with_odd_ones(marks, rings, mine, near, inner, outer)
+    members = _with_odd_ones(marks, rings, near, inner, outer)
     parts = _parts(marks, rosette.centre, rings, members, inner, outer)
-    layers = _layers(marks, rosette.centre, parts, outer)
-    if not layers:
-        return None
-    reach = max(reach, max(float(outer[part.marks].max()) for part in parts))
-    return Flower(
-        rosette.centre, reach, mine, tuple(parts), layers, _pistils(parts, layers), _elements(marks, parts, layers)
-    )
+    layers = _layers(marks, rosette.centre, parts)
+    reach = max(reach, max(float(outer[parts[n].marks].max()) for layer in layers for n in layer.parts))
+    elements = _elements(marks, parts, layers)
+    return Flower(rosette.centre, reach, tuple(parts), layers, _pistils(marks, parts, layers), elements)
+
+
+def _reaching(marks: Marks, rosette: Rosette, inner: Numbers, outer: Numbers) -> tuple[list[Ring], float]:
+    """Return the rings of the flower about a point, and how far its petals reach.
+
+    From the ring that covers most on, rings of petals belong to it that begin where it ends, or nearly, other closed
+    rings that peep out from between its petals, and all that lies within their tips. What stands farther out is the
+    ground's.
+    """
+
+    def area(ring: Ring) -> float:
+        return float((marks.sizes[ring.members] ** 2).sum())
+
+    closed = [ring for ring in rosette.rings if ring.cover >= COVER]
+    if not closed:
+        return [], 0.0
+    main = max(closed, key=area)
+    reach = float(np.median(outer[main.members]))
+    for ring in sorted(closed, key=lambda ring: float(np.median(inner[ring.members]))):
+        follows = FOLLOWING if _petal_like(marks, ring.members, main.members) else PEEPING
+        if np.median(inner[ring.members]) <= follows * reach:
+            reach = max(reach, float(np.median(outer[ring.members])))
+    crumb = CRUMB * float(np.median(marks.sizes[main.members] ** 2))
+    rings = [
+        ring
+        for ring in rosette.rings
+        if np.median(outer[ring.members]) <= TIPS * reach and np.median(marks.sizes[ring.members] ** 2) >= crumb
+    ]
+    return rings, reach
 
 
 def _radii(marks: Marks, centre: Place) -> tuple[Numbers, Numbers]:
@@ -125,12 +157,13 @@ def _radii(marks: Marks, centre: Place) -> tuple[Numbers, Numbers]:
 
 
 def _with_odd_ones(
-    marks: Marks, rings: Sequence[Ring], mine: Indices, near: Numbers, inner: Numbers, outer: Numbers
+    marks: Marks, rings: Sequence[Ring], near: Numbers, inner: Numbers, outer: Numbers
 ) -> list[Indices]:
     """Return the marks of each ring with those that fill its gaps: a petal of another shape is still a petal."""
     members = [ring.members for ring in rings]
     taken = np.unique(np.concatenate(members))
-    for mark in np.setdiff1d(mine, taken).tolist():
+    widest = max(float(np.median(outer[ring.members])) for ring in rings)
+    for mark in np.setdiff1d(np.flatnonzero(near < widest), taken).tolist():
         for number, ring in enumerate(rings):
             low, high = float(np.median(inner[ring.members])), float(np.median(outer[ring.members]))
             larger = float(marks.sizes[mark] ** 2 / np.median(marks.sizes[ring.members] ** 2))
@@ -156,11 +189,13 @@ def _parts(
     ]
     parts = []
     for number, each in enumerate(members):
-        on = lies_on[number]
+        on = root = lies_on[number]
+        while root is not None and lies_on[root] is not None:
+            root = lies_on[root]
         role, inset = Role.ORNAMENT, False
         if petals[number]:
             role = Role.PETAL
-        elif on is not None and petals[on] and _same_shape(marks, each, members[on]):
+        elif on is not None and petals[on] and len(each) == len(members[on]) and area[number] >= FIELD * area[on]:
             inset = True
         elif _pistil_like(marks, centre, each, members[main]):
             beside = any(
@@ -168,9 +203,9 @@ def _parts(
                 and np.median(inner[members[other]]) < np.median(outer[each]) <= 1.1 * np.median(outer[members[other]])
                 for other in range(len(rings))
             )
-            role = Role.PISTIL if on is not None and petals[on] or (on is None and beside) else role
+            role = Role.PISTIL if (beside if root is None else petals[root]) else role
         radii = float(np.median(inner[each])), float(np.median(outer[each]))
-        parts.append(Part(each, rings[number].kind, rings[number].order, role, *radii, on, inset))
+        parts.append(Part(each, rings[number].kind, rings[number].order, role, *radii, root, inset))
     return parts
 
 
@@ -212,7 +247,7 @@ def _pistil_like(marks: Marks, centre: Place, ring: Indices, main: Indices) -> b
     return slim and small and float(np.median(2 * along - 1)) >= POINTING
 
 
-def _layers(marks: Marks, centre: Place, parts: Sequence[Part], outer: Numbers) -> tuple[PetalLayer, ...]:
+def _layers(marks: Marks, centre: Place, parts: Sequence[Part]) -> tuple[PetalLayer, ...]:
     """Return the layers of petals, the outermost first."""
     petals = sorted((n for n, part in enumerate(parts) if part.role == Role.PETAL), key=lambda n: -parts[n].outer)
     layers: list[list[int]] = []
@@ -235,16 +270,29 @@ def _layers(marks: Marks, centre: Place, parts: Sequence[Part], outer: Numbers) 
     return tuple(found)
 
 
-def _pistils(parts: Sequence[Part], layers: Sequence[PetalLayer]) -> tuple[float, ...]:
-    """Return how many pistils a petal has, for each layer that has any."""
-    counts = [0] * len(layers)
-    for part in parts:
-        if part.role == Role.PISTIL:
-            on = [n for n, layer in enumerate(layers) if part.on in layer.parts]
-            # Those between petals belong to the layer that reaches as far or farther.
-            reaching = [n for n, layer in enumerate(layers) if layer.outer * 1.1 >= part.outer]
-            counts[(on or reaching[-1:] or [0])[0]] += len(part.marks)
-    return tuple(count / layer.count for count, layer in zip(counts, layers, strict=True) if count)
+def _pistils(marks: Marks, parts: Sequence[Part], layers: Sequence[PetalLayer]) -> tuple[float, ...]:
+    """Return how many pistils petals have: every number that occurs in a layer that has any, ascending.
+
+    Those on petals are counted petal by petal; those between them are shared out evenly.
+    """
+    found: set[float] = set()
+    pistils = [part for part in parts if part.role == Role.PISTIL]
+    for number, layer in enumerate(layers):
+        on = [part.marks for part in pistils if part.on in layer.parts]
+        # Those between petals belong to the innermost layer that reaches as far.
+        beside = [
+            len(part.marks)
+            for part in pistils
+            if part.on is None
+            and number == max((n for n, each in enumerate(layers) if each.outer * 1.1 >= part.outer), default=0)
+        ]
+        if on or beside:
+            petals = marks.outlines[np.concatenate([parts[each].marks for each in layer.parts])]
+            upon = np.concatenate([*on, np.empty(0, np.intp)])
+            points = shapely.point_on_surface(marks.outlines[upon])
+            at = shapely.STRtree(petals).query(points, predicate="within")[1]
+            found |= set((np.bincount(at, minlength=len(petals)) + sum(beside) / len(petals)).tolist())
+    return tuple(sorted(found))
 
 
 def _elements(marks: Marks, parts: Sequence[Part], layers: Sequence[PetalLayer]) -> int:
@@ -265,10 +313,3 @@ def _elements(marks: Marks, parts: Sequence[Part], layers: Sequence[PetalLayer])
             if part.role == parts[other].role and _same_shape(marks, part.marks, parts[other].marks):
                 join(number, other)
     return len(set(type_of))
-
-
-def within(marks: Marks, flower: Flower) -> NDArray[np.bool_]:
-    """Return which marks belong to a flower."""
-    mine = np.zeros(len(marks), bool)
-    mine[flower.marks] = True
-    return mine

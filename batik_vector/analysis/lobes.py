@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 import shapely
 from shapely.geometry.base import BaseGeometry
 
-from batik_vector.analysis.marks import BARE, Indices, Marks, joined_with, measured
+from batik_vector.analysis.marks import BARE, Marks, Place, joined_with, measured
+from batik_vector.analysis.rings import MOST, Rosette, members
 
 FEWEST, SURE = 3, 5
 """Lobes at the least, and how many a mark has that is a flower even where it stands in a ring itself."""
+
+HEART = 1.5
+"""How many times as far as its size a flower reaches beyond a mark that is its heart."""
 
 LEAST_SIZE = 0.1
 """Of the drawing's largest mark: smaller ones are not taken apart."""
@@ -32,18 +37,22 @@ ROUND = 32
 """Segments of a quarter of the circle at which lobes are cut."""
 
 
-def taken_apart(marks: Marks, ringed: Indices) -> Marks:
+def taken_apart(marks: Marks, found: Sequence[Rosette]) -> Marks:
     """Return the marks with lobes and hearts in place of flowers that are one mark.
 
     Args:
         marks: of the drawing.
-        ringed: the numbers of those that stand in rings, as petals of some flower: only what has ``SURE`` lobes is
-            taken for a flower there.
+        found: the points about which they stand in rings. What stands in a ring, as a petal of some flower, is taken
+            for a flower itself only if it has ``SURE`` lobes, and what stands in the middle of rings that reach
+            ``HEART`` times as far is a flower's heart.
     """
     if not len(marks):
         return marks
     fewest = np.full(len(marks), FEWEST)
-    fewest[ringed] = SURE
+    fewest[members([ring for rosette in found for ring in rosette.rings])] = SURE
+    for rosette in found:
+        away = np.hypot(*(marks.places - rosette.centre).T)
+        fewest[(away <= 0.1 * marks.sizes) & (HEART * marks.sizes < rosette.reach)] = MOST
     hollow = (marks.shapes[:, 2] < HULL) & (marks.sizes >= LEAST_SIZE * marks.sizes.max()) & (marks.inks != BARE)
     parts: list[BaseGeometry] = []
     inks: list[int] = []
@@ -59,7 +68,7 @@ def taken_apart(marks: Marks, ringed: Indices) -> Marks:
     return joined_with(marks[whole], measured(np.array(parts, dtype=object), np.array(inks, np.intp)))
 
 
-def _parts(outline: BaseGeometry, centre: np.ndarray[tuple[int], np.dtype[np.float64]], fewest: int) -> list[BaseGeometry]:
+def _parts(outline: BaseGeometry, centre: Place, fewest: int) -> list[BaseGeometry]:
     """Return the lobes of an outline about a point and the heart between them; nothing where there are no lobes."""
     ring = shapely.get_coordinates(outline)
     away = np.hypot(*(ring - centre).T)

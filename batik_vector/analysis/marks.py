@@ -28,6 +28,9 @@ LEAST = 1e-6
 SIZE, SHAPE = 0.12, np.array([0.06, 0.09, 0.06, 0.25])
 """How far marks of one kind may be apart: in the logarithm of their size, and in the four measures of shape."""
 
+SIMILAR = 0.4
+"""How much nearer to each other the measures of shape have to be where sizes are not compared."""
+
 ROUND_ENDS = 4
 """Segments of a quarter circle at the ends of a pen's line."""
 
@@ -237,7 +240,8 @@ def _once(marks: Marks) -> Marks:
 
 def alike(marks: Marks, one: Indices, other: Indices, size: float | None = SIZE) -> NDArray[np.bool_]:
     """Return which pairs are of one shape, and of one size unless ``size`` is None."""
-    same = (np.abs(marks.shapes[one] - marks.shapes[other]) <= SHAPE).all(axis=1)
+    shape = SHAPE * (SIMILAR if size is None else 1.0)
+    same = (np.abs(marks.shapes[one] - marks.shapes[other]) <= shape).all(axis=1)
     if size is not None:
         same &= np.abs(np.log(marks.sizes[one] / marks.sizes[other])) <= size
     return np.asarray(same)

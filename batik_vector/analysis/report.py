@@ -7,6 +7,7 @@ from dataclasses import field
 from typing import Any
 
 from batik_vector.analysis.dimension import BoxDimension
+from batik_vector.analysis.petal_shape import PetalShape
 from batik_vector.values import frozen
 
 COLUMNS = ("elements", "relation", "symmetry", "layers", "petal", "petals", "pistils")
@@ -55,7 +56,8 @@ class Analysis:
     ``kinds`` count what is drawn on the page and how many shapes there are; ``flowers`` those like the one that is told
     of, which stands about ``centre`` (mm, y up) and reaches ``reach`` mm. ``elements`` is the number of types among what
     is repeated; a single heart in the middle is none of them. ``relation`` says how like elements lie to one another.
-    ``layers`` go from the outermost inwards, ``pistils`` are how many a petal has, of the layers that have any.
+    ``layers`` go from the outermost inwards, ``pistils`` are the numbers of them that petals have, in the layers that
+    have any.
 
     ``coverage`` is the share of the page under ink, ``coverages`` that of each ink. ``line_widths`` are the least and the
     greatest, in mm, None without lines. ``dimension`` is the box dimension of all outlines and lines.
@@ -84,7 +86,7 @@ class Analysis:
     @property
     def row(self) -> dict[str, str]:
         """The features in Table 2's words, by the names of ``COLUMNS``."""
-        shapes = list(dict.fromkeys(shape for layer in self.layers for shape in layer.shapes))
+        shapes = [shape for shape in PetalShape if any(shape in layer.shapes for layer in self.layers)]
         words = (
             _up_to(self.elements, MANY_ELEMENTS),
             self.relation,

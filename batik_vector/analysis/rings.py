@@ -98,7 +98,7 @@ class Rosette:
 
 
 def rosettes(marks: Marks, kinds: Indices) -> list[Rosette]:
-    """Return the points about which marks stand in rings, those with the largest marks first.
+    """Return the points about which marks stand in rings, those with the most area first.
 
     Args:
         marks: of the drawing.
@@ -123,7 +123,12 @@ def rosettes(marks: Marks, kinds: Indices) -> list[Rosette]:
     for each in found:
         own = [ring for ring in each.rings if (spacing[ring.members] >= 0.98 * ring.spacing).mean() >= FITTING]
         kept.append(Rosette(each.centre, tuple(ring for ring in own)))
-    return sorted((each for each in kept if each.reach), key=lambda each: -_covered(marks, each))
+    # Flowers that are alike come in reading order, whatever the last bits of their areas.
+    def rank(rosette: Rosette) -> tuple[float, float, float]:
+        x, y = rosette.centre.tolist()
+        return -float(f"{_covered(marks, rosette):.3g}"), round(-y, 1), round(x, 1)
+
+    return sorted((each for each in kept if each.reach), key=rank)
 
 
 def _covered(marks: Marks, rosette: Rosette) -> float:

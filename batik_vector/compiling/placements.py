@@ -24,7 +24,7 @@ from batik_vector.recipe.figures import Figure, draw, size_of
 from batik_vector.recipe.model import Recipe
 from batik_vector.recipe.motif import Motif, Treatment
 from batik_vector.recipe.placement import Placement
-from batik_vector.tiling.layouts import Bend, Stripes, Toss
+from batik_vector.tiling.layouts import Bend, Share, Stripes, Toss
 from batik_vector.tiling.symmetry.orbits import TRIVIAL, Orbit
 from batik_vector.tiling.welding.congruent import vertex_count
 from batik_vector.tiling.welding.sheets import Sheet
@@ -88,6 +88,8 @@ def place(
     """
     if isinstance(placement.layout, Toss | Stripes):
         return _ground(placement, recipe, unit, inks, limit, orbit, before)
+    if len(placement.motifs) > 1:
+        return _dealt(placement, recipe, unit, inks, limit, orbit)
     motif = _known(recipe.motif, placement.motifs[0], "motif")
     key = placement, motif, unit, tuple(inks.values()), recipe.tolerance, orbit
     # What is built in Python may hold lists, and is then drawn anew each time.
@@ -100,6 +102,20 @@ def place(
             while len(_kept) > KEPT_PLACEMENTS:
                 del _kept[next(iter(_kept))]
     return kept.placed
+
+
+def _dealt(
+    placement: Placement, recipe: Recipe, unit: Cell, inks: Mapping[str, Ink], limit: int, orbit: Orbit
+) -> Placed:
+    """Do the work of :func:`place` for several motifs that take the places of a layout in turn."""
+    sheets: list[Sheet] = []
+    vertices, among = 0, len(placement.motifs)
+    for first, name in enumerate(placement.motifs):
+        share = Share(layout=placement.layout, first=first, among=among)
+        part = place(replace(placement, motif=name, layout=share), recipe, unit, inks, limit - vertices, orbit)
+        sheets += part.sheets
+        vertices += part.vertices
+    return Placed(sheets, vertices)
 
 
 def _hashable(key: tuple[object, ...]) -> bool:

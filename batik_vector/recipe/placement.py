@@ -8,7 +8,7 @@ from typing import Annotated, TypeAlias
 from batik_vector.errors import GeometryError
 from batik_vector.fields import Between, Length, Names, Says, Text, check
 from batik_vector.recipe.references import quoted
-from batik_vector.tiling.layouts import AnyLayout, Single, Stripes, Toss
+from batik_vector.tiling.layouts import AnyLayout, Bend, DoubleSquare, Single, Stripes, Toss
 from batik_vector.tiling.symmetry.groups import GROUP_PATTERN, group_name
 from batik_vector.tiling.symmetry.spread import Spread
 from batik_vector.values import frozen
@@ -25,7 +25,7 @@ Place2D: TypeAlias = tuple[
 class Placement:
     """A motif set on the cloth by a layout, at a size and a place."""
 
-    motif: Annotated[Names, Says("name of the motif; a toss may have several")]
+    motif: Annotated[Names, Says("name of the motif; a toss, a ring and the paper's layouts may have several")]
     layout: Annotated[AnyLayout, Says("how copies are set out")] = field(default_factory=Single)
     width: Annotated[
         Side | None,
@@ -69,9 +69,9 @@ class Placement:
 
     def _refuse_contradictions(self) -> None:
         """Raise where the layout cannot do what other keys ask for."""
-        if len(self.motifs) != 1 and not isinstance(self.layout, Toss):
-            raise GeometryError(f"motif = {self._listed()}: only a toss mixes several, expected one")
-        if len(set(self.motifs)) < len(self.motifs):
+        if len(self.motifs) != 1:
+            self._refuse_several()
+        if isinstance(self.layout, Toss) and len(set(self.motifs)) < len(self.motifs):
             raise GeometryError(
                 f"motif = {self._listed()}: a motif is named twice, expected weights in the layout instead"
             )
@@ -81,6 +81,27 @@ class Placement:
         if isinstance(self.layout, Toss | Stripes) and self.turn:
             what = "turn of the layout" if isinstance(self.layout, Toss) else "winding of the layout"
             raise GeometryError(f"turn = {self.turn:g}: expected the {what} instead")
+
+    def _refuse_several(self) -> None:
+        """Raise where several motifs, or none, are more than the layout or the size can deal with."""
+        if isinstance(self.layout, Toss) and self.motifs:
+            return
+        if not (self.motifs and self.layout.deals):
+            raise GeometryError(
+                f"motif = {self._listed()}: only a toss mixes several, and only rings and the paper's layouts deal "
+                "their places out in turn, expected one"
+            )
+        if self.scale is None:
+            raise GeometryError(
+                f"motif = {self._listed()}: several motifs are set out at one scale, expected scale instead of width"
+            )
+        images = self.layout.images((1.0, 1.0))
+        places, names = 1 if isinstance(images, Bend) else len(images), len(self.motifs)
+        if places < names or (places % names and not isinstance(self.layout, DoubleSquare)):
+            raise GeometryError(
+                f"motif = {self._listed()}: {names} motifs in turn do not come out even on {places} places, expected "
+                f"a number of motifs that divides {places}"
+            )
 
     def _listed(self) -> str:
         return "[" + ", ".join(quoted(name) for name in self.motifs[:6]) + "]"

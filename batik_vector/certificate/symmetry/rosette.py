@@ -44,6 +44,9 @@ COARSE = 400
 AROUND = 3.0
 """Side of the square on whose torus a figure is measured, in its diameters: no image then meets another."""
 
+ANY = (1.0, 0.3)
+"""Turns, in radians, that together keep only rings and discs: no order that is looked for has either."""
+
 AXES = 6
 """Mirrors tried, the likeliest first."""
 
@@ -130,16 +133,15 @@ class _Search:
     def _about_middle(self) -> Rosette:
         waves = np.fft.rfft(_rings(self.edges, self.middle, self.reach), axis=1)
         power = (np.abs(waves) ** 2)[:, 1:].sum(axis=0)
-        if power.sum() <= 1e-6 * float((np.abs(waves[:, 0]) ** 2).sum()):
+        if all(self._turns(angle) for angle in ANY):
             return Rosette(1, True, _pair(self.middle), continuous=True)
-        order = next((n for n in _orders(power) if self._turns(n)), 1)
+        order = next((n for n in _orders(power) if self._turns(2 * math.pi / n)), 1)
         axis = self._mirror(waves, order)
         mirrors = axis is not None
         return Rosette(order, mirrors, _pair(self.middle), axis, self.deviation)
 
-    def _turns(self, order: int) -> bool:
-        """Whether the figure is kept by a turn of that order; if so its centre is the turn's."""
-        angle = 2 * math.pi / order
+    def _turns(self, angle: float) -> bool:
+        """Whether the figure is kept by a turn (radians); if so its centre is the turn's."""
         turn = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
         shift = self.matcher.placed(turn, self.middle - turn @ self.middle)
         fit = self.matcher.fit(turn, shift, self.slack)

@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import Annotated, TypeAlias
 
 from batik_vector.fields import OneOf
-from batik_vector.tiling.layouts.base import Bend, Layout, Pair
+from batik_vector.tiling.layouts.base import Bend, Layout, Pair, Share
 from batik_vector.tiling.layouts.copies import (
     Free,
     Lattice,
@@ -22,11 +22,25 @@ from batik_vector.tiling.layouts.copies import (
     Spot,
 )
 from batik_vector.tiling.layouts.grounds import Clear, Stripes, Toss
+from batik_vector.tiling.layouts.named import (
+    Circle,
+    DoubleSquare,
+    FiveCircle,
+    FourSquare,
+    Symmetric,
+    ThreeCircle,
+)
 from batik_vector.tiling.layouts.systems import Julian, MapSpec, System, Term
 
 LAYOUTS: dict[str, type[Layout]] = {
     "single": Single,
     "julian": Julian,
+    "symmetric": Symmetric,
+    "double-square": DoubleSquare,
+    "four-square": FourSquare,
+    "three-circle": ThreeCircle,
+    "five-circle": FiveCircle,
+    "circle": Circle,
     "ring": Ring,
     "mirror": Mirror,
     "rosette": RosetteLayout,
@@ -44,7 +58,11 @@ __all__ = [
     "LAYOUTS",
     "AnyLayout",
     "Bend",
+    "Circle",
     "Clear",
+    "DoubleSquare",
+    "FiveCircle",
+    "FourSquare",
     "Free",
     "Julian",
     "Lattice",
@@ -55,10 +73,13 @@ __all__ = [
     "Places",
     "Ring",
     "RosetteLayout",
+    "Share",
     "Single",
     "Spot",
     "Stripes",
+    "Symmetric",
     "System",
     "Term",
+    "ThreeCircle",
     "Toss",
 ]

@@ -29,9 +29,14 @@ def carried(first: Affine, system: Ifs) -> Affines | Bend:
 
 
 class Layout:
-    """What every layout offers. ``spreads`` says whether a placement's width measures all copies together."""
+    """What every layout offers.
+
+    ``spreads`` says whether a placement's width measures all copies together, ``deals`` whether several motifs may take
+    its places in turn.
+    """
 
     spreads: ClassVar[bool] = True
+    deals: ClassVar[bool] = False
 
     def __post_init__(self) -> None:
         check(self)
@@ -42,3 +47,17 @@ class Layout:
         Of a layout that ``spreads``, the cell changes nothing.
         """
         raise NotImplementedError
+
+
+@frozen(kw_only=True)
+class Share(Layout):
+    """What one of several motifs has of a layout that deals: every ``among``-th place from ``first`` on."""
+
+    layout: Layout
+    first: int
+    among: int
+
+    def images(self, cell: tuple[float, float]) -> Affines | Bend:
+        """Its images of the layout's."""
+        images = self.layout.images(cell)
+        return images if isinstance(images, Bend) else images[self.first :: self.among]

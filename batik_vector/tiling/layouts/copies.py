@@ -28,8 +28,9 @@ class Single(Layout):
 
 @frozen(kw_only=True)
 class Ring(Layout):
-    """Copies on a circle, each turned with it or all upright."""
+    """Copies on a circle, each turned with it or all upright; several motifs take their places in turn."""
 
+    deals: ClassVar[bool] = True
     count: Annotated[int, Between(1, 1000), Says("number of copies")] = 6
     radius: Annotated[float, Between(0, 1e4), Says("distance of the copies from the centre")] = 2.0
     upright: Annotated[bool, Says("keep every copy upright instead of turning it with the ring")] = False
