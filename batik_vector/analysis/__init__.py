@@ -1,4 +1,4 @@
-"""Analysis: what a pattern is made of, measured from its geometry alone, in the terms of the paper's Table 1."""
+"""Analysis: what a pattern is made of, measured from geometry alone, in the terms of the paper's Table 1."""
 
 from __future__ import annotations
 

@@ -77,7 +77,9 @@ def _analysed(artwork: Artwork, count: int, notes: Sequence[str], tolerance: flo
             kinds=0 if kinds is None else int(kinds.max(initial=-1)) + 1,
             elements=repeated or min(len(marks), 1),
             relation=NONE if kinds is None else _relation(marks, kinds),
-            symmetry=_symmetry(layers, tolerance) if len(marks) and kinds is not None else Symmetry("C1", 1, NONE, None, 0.0),
+            symmetry=_symmetry(layers, tolerance)
+            if len(marks) and kinds is not None
+            else Symmetry("C1", 1, NONE, None, 0.0),
             **figures,  # type: ignore[arg-type]
         )
     flower, alike = best
@@ -91,7 +93,9 @@ def _analysed(artwork: Artwork, count: int, notes: Sequence[str], tolerance: flo
         elements=flower.elements,
         relation="rotation",
         symmetry=Symmetry(found.name, found.order, found.kind, found.axis, found.deviation),
-        layers=tuple(LayerFound(each.count, tuple(map(str, each.shapes)), each.outer) for each in flower.layers),
+        layers=tuple(
+            LayerFound(each.count, tuple(map(str, each.shapes)), each.outer) for each in flower.layers
+        ),
         pistils=flower.pistils,
         flowers=alike,
         centre=(x, y),
@@ -115,14 +119,20 @@ def _flower(marks: Marks) -> tuple[Indices | None, tuple[Flower, int] | None, st
         marks = apart
         kinds = kinds_of(marks, MOST_KINDS)
         if kinds is None:
-            return None, None, f"{len(marks):,} marks of more than {MOST_KINDS} shapes: no pattern of like marks"
+            return (
+                None,
+                None,
+                f"{len(marks):,} marks of more than {MOST_KINDS} shapes: no pattern of like marks",
+            )
         found = rosettes(marks, kinds)
     for rosette in found:
         flower = flower_of(marks, rosette)
         if flower is not None:
             return kinds, (flower, sum(rosette.like(other) for other in found)), ""
     shapes = int(kinds.max()) + 1
-    counts = f"{len(marks):,} mark{'s' if len(marks) > 1 else ''} of {shapes:,} shape{'s' if shapes > 1 else ''}"
+    counts = (
+        f"{len(marks):,} mark{'s' if len(marks) > 1 else ''} of {shapes:,} shape{'s' if shapes > 1 else ''}"
+    )
     return kinds, None, f"{counts}, and no three alike that stand round a point as petals do"
 
 

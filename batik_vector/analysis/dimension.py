@@ -1,8 +1,9 @@
 """Box dimension: how the boxes that a drawing's outline meets grow in number as they grow small.
 
-Every box that an edge runs through is counted, by the edge and not by points on it: edges are cut where they cross
-the lines of the finest grid, and coarser grids of the same family follow from that. Of several positions of the grid
-the one with the fewest boxes counts, as the definition by coverings has it. Falconer, Fractal Geometry (2004), 3.1.
+Every box that an edge runs through is counted, by the edge and not by points on it: edges are cut where they
+cross the lines of the finest grid, and coarser grids of the same family follow from that. Of several
+positions of the grid the one with the fewest boxes counts, as the definition by coverings has it. Falconer,
+Fractal Geometry (2004), 3.1.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ SHARP = math.radians(25)
 """The turn of a corner."""
 
 CORNERED = 24.0
-"""Stretches between corners to the drawing's extent past which they bound the fit: below, there is no more detail."""
+"""Stretches between corners to the drawing's extent past which they bound the fit: no detail is finer."""
 
 MOST_CROSSINGS = 3e6
 """Boxes run through in the finest grid, about, at the most: finer ones are left out of the fit."""
@@ -38,9 +39,10 @@ MOST_CROSSINGS = 3e6
 
 @frozen
 class BoxDimension:
-    """The slope of log N against log 1/ε, fitted from boxes of ``smallest`` to ``largest`` mm, ``sizes`` of them.
+    """The slope of log N against log 1/ε, fitted from boxes of ``smallest`` to ``largest`` mm.
 
-    ``residual`` is the root of the mean square by which log₂ N misses the line, weighted as the fit is: by N.
+    There are ``sizes`` of them. ``residual`` is the root of the mean square by which log₂ N misses the line,
+    weighted as the fit is: by N.
     """
 
     dimension: float
@@ -69,12 +71,14 @@ def box_dimension(areas: Geometries, lines: Geometries) -> BoxDimension | None:
     low = xy.min(axis=0)
     extent = float(np.ptp(xy, axis=0).max())
     length = float(np.hypot(*(end - begin).T).sum())
-    finest = max(extent / FINEST, length / MOST_CROSSINGS, _detail(begin, end, owner[:-1][same][long], extent))
+    finest = max(
+        extent / FINEST, length / MOST_CROSSINGS, _detail(begin, end, owner[:-1][same][long], extent)
+    )
     sizes: list[float] = []
     counts: list[float] = []
     for family in range(FAMILIES):
         largest = extent / COARSEST * 2 ** (-family / FAMILIES)
-        steps = int(math.floor(math.log2(largest / finest) + 1e-9))
+        steps = math.floor(math.log2(largest / finest) + 1e-9)
         if steps < 1:
             continue
         sizes += [largest / 2**step for step in range(steps, -1, -1)]
@@ -98,7 +102,7 @@ def _detail(begin: Points, end: Points, owner: Indices, extent: float) -> float:
     cross = step[:-1, 0] * step[1:, 1] - step[:-1, 1] * step[1:, 0]
     sharp = np.abs(np.arctan2(cross, (step[:-1] * step[1:]).sum(axis=1))) > SHARP
     stretch = np.concatenate([[0], np.cumsum(sharp | ~follows)])
-    lengths: Numbers = np.bincount(stretch, length)
+    lengths: Numbers = np.bincount(stretch, length).astype(np.float64)
     order = np.argsort(lengths, kind="stable")
     half = np.searchsorted(np.cumsum(lengths[order]), lengths.sum() / 2)
     middle = float(lengths[order][min(int(half), len(order) - 1)])
@@ -123,8 +127,8 @@ def _counts(begin: Points, end: Points, largest: float, steps: int) -> list[floa
 def _boxes(a: Points, b: Points, whole: int) -> NDArray[np.bool_]:
     """Return which boxes of side 1 edges run through; the grid's sides are multiples of ``whole``.
 
-    An edge enters every box but its first through a line of the grid, so the boxes on both sides of where it crosses
-    one are all there are.
+    An edge enters every box but its first through a line of the grid, so the boxes on both sides of where it
+    crosses one are all there are.
     """
     far = np.maximum(a.max(axis=0), b.max(axis=0))
     columns, rows = ((np.floor(far / whole).astype(np.intp) + 1) * whole).tolist()

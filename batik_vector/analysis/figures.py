@@ -19,7 +19,9 @@ def coverage(layers: Sequence[Layer], cell: Cell) -> tuple[float, dict[str, floa
     page = shapely.box(0, 0, cell.width, cell.height)
     inks: dict[str, list[Geometries]] = {}
     for layer in layers:
-        bodies = shapely.buffer(np.asarray(layer.lines, dtype=object), layer.ink.width / 2, quad_segs=ROUND_ENDS)
+        bodies = shapely.buffer(
+            np.asarray(layer.lines, dtype=object), layer.ink.width / 2, quad_segs=ROUND_ENDS
+        )
         inks.setdefault(layer.ink.name, []).append(np.concatenate([sound(layer.areas), sound(bodies)]))
     welded = {name: joined(np.concatenate(parts)) for name, parts in inks.items()}
     every = joined(np.concatenate(list(welded.values()))) if welded else np.empty(0, dtype=object)

@@ -1,8 +1,8 @@
 """The flower of a drawing: its rings told apart as petals, pistils and ornaments, by their geometry alone.
 
-What a ring is goes by size and place. The petals are the ring that covers most; rings of marks nearly as large, or of
-the same shape, are petals too, and rings of petals that reach equally far are one layer. Pistils are slim marks that
-point to the centre, on the petals or between them. The rest are ornaments.
+What a ring is goes by size and place. The petals are the ring that covers most; rings of marks nearly as
+large, or of the same shape, are petals too, and rings of petals that reach equally far are one layer. Pistils
+are slim marks that point to the centre, on the petals or between them. The rest are ornaments.
 """
 
 from __future__ import annotations
@@ -27,8 +27,8 @@ SLIM, POINTING = 0.55, math.cos(math.radians(2 * 35))
 """The breadth of a pistil at the most, as a share of its length, and how far from the radius it may point."""
 
 FOLLOWING, PEEPING, TIPS = 1.12, 0.9, 1.005
-"""Where a farther layer of petals begins at the most, and a ring of leaves, and where what lies within the tips ends,
-against the reach of the petals."""
+"""Where a farther layer of petals begins at the most, and a ring of leaves, and where what lies within the
+tips ends, against the reach of the petals."""
 
 CRUMB = 0.004
 """The area of marks, as a share of a petal's, below which they are what cuts have left over."""
@@ -64,8 +64,8 @@ class Role(enum.StrEnum):
 class Part:
     """A ring in its flower: its marks by number, its role, and its radii (mm, medians over the marks).
 
-    ``on`` is the number of the lowest part on whose marks these lie, ``inset`` says that they are the inner fields of petals:
-    the same element in another ink.
+    ``on`` is the number of the lowest part on whose marks these lie, ``inset`` says that they are the inner
+    fields of petals: the same element in another ink.
     """
 
     marks: Indices
@@ -92,8 +92,8 @@ class PetalLayer:
 class Flower:
     """A flower about ``centre`` (mm), reaching ``reach`` mm.
 
-    ``layers`` go from the outermost inwards. ``pistils`` are the numbers of them that petals have, in the layers that have any.
-    ``elements`` is the number of types among what is repeated.
+    ``layers`` go from the outermost inwards. ``pistils`` are the numbers of them that petals have, in the
+    layers that have any. ``elements`` is the number of types among what is repeated.
     """
 
     centre: Place
@@ -122,9 +122,9 @@ def flower_of(marks: Marks, rosette: Rosette) -> Flower | None:
 def _reaching(marks: Marks, rosette: Rosette, inner: Numbers, outer: Numbers) -> tuple[list[Ring], float]:
     """Return the rings of the flower about a point, and how far its petals reach.
 
-    From the ring that covers most on, rings of petals belong to it that begin where it ends, or nearly, other closed
-    rings that peep out from between its petals, and all that lies within their tips. What stands farther out is the
-    ground's.
+    From the ring that covers most on, rings of petals belong to it that begin where it ends, or nearly, other
+    closed rings that peep out from between its petals, and all that lies within their tips. What stands
+    farther out is the ground's.
     """
 
     def area(ring: Ring) -> float:
@@ -143,7 +143,8 @@ def _reaching(marks: Marks, rosette: Rosette, inner: Numbers, outer: Numbers) ->
     rings = [
         ring
         for ring in rosette.rings
-        if np.median(outer[ring.members]) <= TIPS * reach and np.median(marks.sizes[ring.members] ** 2) >= crumb
+        if np.median(outer[ring.members]) <= TIPS * reach
+        and np.median(marks.sizes[ring.members] ** 2) >= crumb
     ]
     return rings, reach
 
@@ -159,7 +160,7 @@ def _radii(marks: Marks, centre: Place) -> tuple[Numbers, Numbers]:
 def _with_odd_ones(
     marks: Marks, rings: Sequence[Ring], near: Numbers, inner: Numbers, outer: Numbers
 ) -> list[Indices]:
-    """Return the marks of each ring with those that fill its gaps: a petal of another shape is still a petal."""
+    """Return the marks of each ring with those that fill its gaps: an odd petal is still a petal."""
     members = [ring.members for ring in rings]
     taken = np.unique(np.concatenate(members))
     widest = max(float(np.median(outer[ring.members])) for ring in rings)
@@ -176,7 +177,12 @@ def _with_odd_ones(
 
 
 def _parts(
-    marks: Marks, centre: Place, rings: Sequence[Ring], members: Sequence[Indices], inner: Numbers, outer: Numbers
+    marks: Marks,
+    centre: Place,
+    rings: Sequence[Ring],
+    members: Sequence[Indices],
+    inner: Numbers,
+    outer: Numbers,
 ) -> list[Part]:
     """Return the rings with their roles, the largest marks first."""
     area = np.array([float(np.median(marks.sizes[each] ** 2)) for each in members])
@@ -195,12 +201,19 @@ def _parts(
         role, inset = Role.ORNAMENT, False
         if petals[number]:
             role = Role.PETAL
-        elif on is not None and petals[on] and len(each) == len(members[on]) and area[number] >= FIELD * area[on]:
+        elif (
+            on is not None
+            and petals[on]
+            and len(each) == len(members[on])
+            and area[number] >= FIELD * area[on]
+        ):
             inset = True
         elif _pistil_like(marks, centre, each, members[main]):
             beside = any(
                 petals[other]
-                and np.median(inner[members[other]]) < np.median(outer[each]) <= 1.1 * np.median(outer[members[other]])
+                and np.median(inner[members[other]])
+                < np.median(outer[each])
+                <= 1.1 * np.median(outer[members[other]])
                 for other in range(len(rings))
             )
             role = Role.PISTIL if (beside if root is None else petals[root]) else role
@@ -249,7 +262,9 @@ def _pistil_like(marks: Marks, centre: Place, ring: Indices, main: Indices) -> b
 
 def _layers(marks: Marks, centre: Place, parts: Sequence[Part]) -> tuple[PetalLayer, ...]:
     """Return the layers of petals, the outermost first."""
-    petals = sorted((n for n, part in enumerate(parts) if part.role == Role.PETAL), key=lambda n: -parts[n].outer)
+    petals = sorted(
+        (n for n, part in enumerate(parts) if part.role == Role.PETAL), key=lambda n: -parts[n].outer
+    )
     layers: list[list[int]] = []
     for number in petals:
         if layers and parts[layers[-1][0]].outer - parts[number].outer <= LEVEL * parts[layers[-1][0]].outer:
@@ -284,7 +299,8 @@ def _pistils(marks: Marks, parts: Sequence[Part], layers: Sequence[PetalLayer]) 
             len(part.marks)
             for part in pistils
             if part.on is None
-            and number == max((n for n, each in enumerate(layers) if each.outer * 1.1 >= part.outer), default=0)
+            and number
+            == max((n for n, each in enumerate(layers) if each.outer * 1.1 >= part.outer), default=0)
         ]
         if on or beside:
             petals = marks.outlines[np.concatenate([parts[each].marks for each in layer.parts])]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from itertools import pairwise
 
 import numpy as np
 import shapely
@@ -42,9 +43,9 @@ def taken_apart(marks: Marks, found: Sequence[Rosette]) -> Marks:
 
     Args:
         marks: of the drawing.
-        found: the points about which they stand in rings. What stands in a ring, as a petal of some flower, is taken
-            for a flower itself only if it has ``SURE`` lobes, and what stands in the middle of rings that reach
-            ``HEART`` times as far is a flower's heart.
+        found: the points about which they stand in rings. What stands in a ring, as a petal of some flower,
+            is taken for a flower itself only if it has ``SURE`` lobes, and what stands in the middle of rings
+            that reach ``HEART`` times as far is a flower's heart.
     """
     if not len(marks):
         return marks
@@ -53,23 +54,25 @@ def taken_apart(marks: Marks, found: Sequence[Rosette]) -> Marks:
     for rosette in found:
         away = np.hypot(*(marks.places - rosette.centre).T)
         fewest[(away <= 0.1 * marks.sizes) & (HEART * marks.sizes < rosette.reach)] = MOST
-    hollow = (marks.shapes[:, 2] < HULL) & (marks.sizes >= LEAST_SIZE * marks.sizes.max()) & (marks.inks != BARE)
+    hollow = (
+        (marks.shapes[:, 2] < HULL) & (marks.sizes >= LEAST_SIZE * marks.sizes.max()) & (marks.inks != BARE)
+    )
     parts: list[BaseGeometry] = []
     inks: list[int] = []
     whole = np.ones(len(marks), bool)
     for number in np.flatnonzero(hollow).tolist():
-        found = _parts(marks.outlines[number], marks.places[number], int(fewest[number]))
-        if found:
+        pieces = _parts(marks.outlines[number], marks.places[number], int(fewest[number]))
+        if pieces:
             whole[number] = False
-            parts += found
-            inks += [int(marks.inks[number])] * len(found)
+            parts += pieces
+            inks += [int(marks.inks[number])] * len(pieces)
     if not parts:
         return marks
     return joined_with(marks[whole], measured(np.array(parts, dtype=object), np.array(inks, np.intp)))
 
 
 def _parts(outline: BaseGeometry, centre: Place, fewest: int) -> list[BaseGeometry]:
-    """Return the lobes of an outline about a point and the heart between them; nothing where there are no lobes."""
+    """Return the lobes of an outline about a point and the heart between them, or nothing."""
     ring = shapely.get_coordinates(outline)
     away = np.hypot(*(ring - centre).T)
     radii = np.linspace(away.min(), away.max(), RADII + 2)[1:-1]
@@ -77,13 +80,17 @@ def _parts(outline: BaseGeometry, centre: Place, fewest: int) -> list[BaseGeomet
     lobes = (beyond & ~np.roll(beyond, 1, axis=0)).sum(axis=0)
     # The run of circles with the most lobes, weighed with how deep they reach.
     cuts = np.concatenate([[0], np.flatnonzero(np.diff(lobes)) + 1, [RADII]])
-    runs = [(int(lobes[a]) * float(b - a), int(a), int(b)) for a, b in zip(cuts[:-1], cuts[1:], strict=True)]
+    runs = [(int(lobes[a]) * float(b - a), int(a), int(b)) for a, b in pairwise(cuts)]
     runs = [run for run in runs if lobes[run[1]] >= fewest and (run[2] - run[1]) / RADII >= DEEP]
     if not runs or not shapely.contains_xy(outline, *centre):
         return []
     radius = float(radii[max(runs)[1]])
     disc = shapely.Point(centre).buffer(radius, quad_segs=ROUND)
-    pieces = [piece for piece in shapely.get_parts(shapely.difference(outline, disc)) if piece.geom_type == "Polygon"]
+    pieces = [
+        piece
+        for piece in shapely.get_parts(shapely.difference(outline, disc))
+        if piece.geom_type == "Polygon"
+    ]
     largest = max(piece.area for piece in pieces)
     pieces = [piece for piece in pieces if piece.area > 0.02 * largest]
     middles = shapely.get_coordinates(shapely.centroid(pieces)) - centre

@@ -1,6 +1,6 @@
 """Marks: what a drawing draws, one by one, each with the measures by which like is told from unlike.
 
-Only shapes count. What a layer or an element is called, its colour, and how the file writes it are not looked at.
+Only shapes count: not what a layer or an element is called, what colour it has, or how the file writes it.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ LEAST = 1e-6
 """The share of the drawing's extent, squared, below which an area is a crumb and no mark."""
 
 SIZE, SHAPE = 0.12, np.array([0.06, 0.09, 0.06, 0.25])
-"""How far marks of one kind may be apart: in the logarithm of their size, and in the four measures of shape."""
+"""How far marks of one kind may be apart: in the logarithm of size, and in the four measures of shape."""
 
 SIMILAR = 0.4
 """How much nearer to each other the measures of shape have to be where sizes are not compared."""
@@ -40,9 +40,10 @@ class Marks:
     """Marks as filled outlines, holes left out; every array has one entry for each.
 
     ``outlines`` are polygons in mm and ``inks`` the numbers of their layers, ``BARE`` for ground that a mark
-    encloses. ``places`` (n, 2) are their centroids, ``sizes`` the square roots of their areas, ``ways`` (n, 2) unit
-    vectors along their long axes. ``shapes`` (n, 4) are what does not change when a mark is moved, turned, mirrored or
-    scaled: short axis to long, 4πA/P², the share of the convex hull that is filled, and how much fuller one end is.
+    encloses. ``places`` (n, 2) are their centroids, ``sizes`` the square roots of their areas, ``ways`` (n,
+    2) unit vectors along their long axes. ``shapes`` (n, 4) are what does not change when a mark is moved,
+    turned, mirrored or scaled: short axis to long, 4πA/P², the share of the convex hull that is filled, and
+    how much fuller one end is.
     """
 
     outlines: Geometries
@@ -72,10 +73,11 @@ class Marks:
 
 
 def marks_of(layers: Sequence[Layer]) -> Marks:
-    """Return the marks of a drawing: its areas, its closed lines as what they enclose, its open lines as bodies.
+    """Return the marks of a drawing.
 
-    What overlaps in one ink is one mark. A lowest area that holds everything else is the cloth, and is left out, and so
-    are crumbs.
+    They are its areas, its closed lines as what they enclose, its open lines as bodies. What overlaps in one
+    ink is one mark. A lowest area that holds everything else is the cloth, and is left out, and so are
+    crumbs.
     """
     outlines: list[Geometries] = []
     inks: list[int] = []
@@ -98,6 +100,7 @@ def marks_of(layers: Sequence[Layer]) -> Marks:
 
 
 def sound(areas: Geometries) -> Geometries:
+    """Return areas as valid polygons, what is broken mended, what is not finite left out."""
     areas = np.asarray(areas, dtype=object)
     areas = areas[np.isfinite(shapely.bounds(areas)).all(axis=1)] if len(areas) else areas
     broken = ~shapely.is_valid(areas)
@@ -105,7 +108,8 @@ def sound(areas: Geometries) -> Geometries:
         areas = areas.copy()
         areas[broken] = shapely.make_valid(areas[broken])
     parts = np.asarray(shapely.get_parts(shapely.get_parts(areas)), dtype=object)
-    return parts[shapely.get_type_id(parts) == shapely.GeometryType.POLYGON]
+    polygons: Geometries = parts[shapely.get_type_id(parts) == shapely.GeometryType.POLYGON]
+    return polygons
 
 
 def joined(areas: Geometries) -> Geometries:
@@ -145,7 +149,11 @@ def _of_lines(layer: Layer) -> Geometries:
         return lines
     closed = shapely.is_closed(lines) & (shapely.get_num_coordinates(lines) > 3)
     xy, owner = shapely.get_coordinates(lines[closed], return_index=True)
-    rings = sound(shapely.polygons(shapely.linearrings(xy, indices=owner))) if closed.any() else lines[:0]
+    rings = (
+        sound(np.asarray(shapely.polygons(shapely.linearrings(xy, indices=owner))))
+        if closed.any()
+        else lines[:0]
+    )
     bodies = shapely.buffer(lines[~closed], layer.ink.width / 2, quad_segs=ROUND_ENDS)
     return np.concatenate([rings, joined(sound(bodies))])
 
@@ -158,9 +166,9 @@ def _uncovered(marks: Geometries, inks: Indices) -> tuple[Geometries, Indices]:
     largest = lowest[int(np.argmax(shapely.area(marks[lowest])))]
     cloth, others = marks[largest], np.delete(marks, largest)
     convex = shapely.area(shapely.convex_hull(cloth)) <= 1.001 * shapely.area(cloth)
-    if convex and shapely.box(*shapely.total_bounds(others)).difference(shapely.envelope(cloth)).is_empty:
-        if shapely.covers(cloth, shapely.multipoints(shapely.centroid(others))):
-            return others, np.delete(inks, largest)
+    around = shapely.envelope(cloth).covers(shapely.box(*shapely.total_bounds(others)))
+    if convex and around and shapely.covers(cloth, shapely.multipoints(shapely.centroid(others))):
+        return others, np.delete(inks, largest)
     return marks, inks
 
 
@@ -227,7 +235,7 @@ def _once(marks: Marks) -> Marks:
     """Leave out marks that lie on others of the same outline, as the line along the edge of an area does."""
     if len(marks) < 2:
         return marks
-    near = shapely.STRtree(shapely.points(marks.places)).query(
+    near = shapely.STRtree(np.asarray(shapely.points(marks.places))).query(
         shapely.points(marks.places), predicate="dwithin", distance=0.02 * float(marks.sizes.max())
     )
     one, other = near

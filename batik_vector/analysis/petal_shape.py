@@ -15,7 +15,7 @@ BASE = 0.2
 """The inner share of a petal's length that is not judged: others lie over it, and cut it."""
 
 STRAIGHT = 0.06
-"""How far an outline may stand from straight sides, as a share of the petal's breadth; an ellipse stands off 0.15."""
+"""How far an outline may stand from straight sides, to the petal's breadth; an ellipse stands off 0.15."""
 
 CORNERS, BASE_CORNERS = 3, 2
 """Corners of a petal with straight sides: the tip and those beside it, and where its base is cut off."""
@@ -27,7 +27,7 @@ SWING = math.radians(20)
 """The turn of a hollow between two bulges of a wavy outline, at the least."""
 
 HOLLOWS = 3
-"""Hollows of a wavy outline, at the least: a pointed petal may have one on each side of its tip, a heart one."""
+"""Hollows of a wavy outline, at the least: a pointed petal may have one beside its tip on either side."""
 
 
 class PetalShape(enum.StrEnum):

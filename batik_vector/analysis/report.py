@@ -1,4 +1,4 @@
-"""What is told of a drawing: Table 1's features, and how they are put in words. Tian et al. 2019, Tables 1 and 2."""
+"""What is told of a drawing: its features, in the words of Tian et al. 2019, Tables 1 and 2."""
 
 from __future__ import annotations
 
@@ -20,9 +20,10 @@ MANY_ELEMENTS, MANY_LAYERS, MANY_PETALS, MANY_PISTILS = 4, 3, 10, 3
 
 @frozen
 class Symmetry:
-    """A flower's rosette group: its ``name``, ``order``, and ``kind`` in words; ``axis`` (degrees) of a mirror.
+    """A flower's rosette group: its ``name``, its ``order``, and its ``kind`` in words.
 
-    ``deviation`` (mm) is the most by which an image of the outline misses it.
+    ``axis`` (degrees) is the direction of a mirror, None where there is none. ``deviation`` (mm) is the most
+    by which an image of the outline misses it.
     """
 
     name: str
@@ -52,15 +53,16 @@ class Layer:
 class Analysis:
     """What was measured of a drawing, from its geometry alone.
 
-    ``judged`` is False where the drawing holds no flower; ``reason`` then says why, with what was found. ``marks`` and
-    ``kinds`` count what is drawn on the page and how many shapes there are; ``flowers`` those like the one that is told
-    of, which stands about ``centre`` (mm, y up) and reaches ``reach`` mm. ``elements`` is the number of types among what
-    is repeated; a single heart in the middle is none of them. ``relation`` says how like elements lie to one another.
-    ``layers`` go from the outermost inwards, ``pistils`` are the numbers of them that petals have, in the layers that
-    have any.
+    ``judged`` is False where the drawing holds no flower; ``reason`` then says why, with what was found.
+    ``marks`` and ``kinds`` count what is drawn on the page and how many shapes there are; ``flowers`` those
+    like the one that is told of, which stands about ``centre`` (mm, y up) and reaches ``reach`` mm.
+    ``elements`` is the number of types among what is repeated; a single heart in the middle is none of them.
+    ``relation`` says how like elements lie to one another. ``layers`` go from the outermost inwards,
+    ``pistils`` are the numbers of them that petals have, in the layers that have any.
 
-    ``coverage`` is the share of the page under ink, ``coverages`` that of each ink. ``line_widths`` are the least and the
-    greatest, in mm, None without lines. ``dimension`` is the box dimension of all outlines and lines.
+    ``coverage`` is the share of the page under ink, ``coverages`` that of each ink. ``line_widths`` are the
+    least and the greatest, in mm, None without lines. ``dimension`` is the box dimension of all outlines and
+    lines.
     """
 
     title: str
@@ -93,7 +95,9 @@ class Analysis:
             self.symmetry.word,
             _layers(len(self.layers)),
             " and ".join(shapes) or NONE,
-            _several([_petals(layer.petals) for layer in sorted(self.layers, key=lambda layer: layer.petals)]),
+            _several(
+                [_petals(layer.petals) for layer in sorted(self.layers, key=lambda layer: layer.petals)]
+            ),
             _several([word for count in sorted(self.pistils) for word in _pistils(count)]),
         )
         return dict(zip(COLUMNS, words, strict=True))
@@ -130,7 +134,9 @@ class Analysis:
             "reach_mm": None if self.reach is None else round(self.reach, 3),
             "covers": round(self.coverage, 6),
             "inks": {name: round(share, 6) for name, share in self.coverages.items()},
-            "line_widths_mm": None if self.line_widths is None else [round(each, 4) for each in self.line_widths],
+            "line_widths_mm": None
+            if self.line_widths is None
+            else [round(each, 4) for each in self.line_widths],
             "nodes": self.nodes,
             "box_dimension": None
             if fit is None

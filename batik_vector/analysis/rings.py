@@ -1,7 +1,7 @@
-"""Rings: marks of one kind that stand evenly round a point, and the points round which a drawing has most of them.
+"""Rings: marks of one kind that stand evenly round a point, and the points that have most of them.
 
-A mark may stand in a ring about several points: the petal of a flower, about the flower's centre and, four flowers
-round it, about the middle between them. It belongs to the ring in which its like stands nearest.
+A mark may stand in a ring about several points: the petal of a flower, about the flower's centre and, four
+flowers round it, about the middle between them. It belongs to the ring in which its like stands nearest.
 """
 
 from __future__ import annotations
@@ -11,11 +11,9 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
 
 from batik_vector.analysis.marks import Indices, Marks, Numbers, Place, Points
 from batik_vector.values import frozen
-
 
 LEAST = 3
 """Marks that make a ring, at the least."""
@@ -30,8 +28,8 @@ SAME_RADIUS = 0.045
 """Steps between radii, as a share of them, past which marks stand in two rings."""
 
 COMB, FITTING = (0.03, 0.2), 0.7
-"""How far a mark of a ring may stand from where a turn brings its neighbour, in steps of the ring, drawn exactly or
-by hand; and how many of the marks have to fit a turn."""
+"""How far a mark of a ring may stand from where a turn brings its neighbour, in steps of the ring, drawn
+exactly or by hand; and how many of the marks have to fit a turn."""
 
 TURNED = 0.2
 """How far the cosine of twice the angle between a mark's long axis and its radius may be from the ring's."""
@@ -46,18 +44,18 @@ COVER = 0.2
 """The share of the whole turn that marks have to cover for their ring to be a flower's outermost."""
 
 TOGETHER, SAME_CENTRE = 0.02, 0.05
-"""Centres nearer to each other than this share of their ring's radius are one: as guesses, and once worked out."""
+"""Centres nearer to each other than this share of their ring's radius are one: guessed, and worked out."""
 
 EXACT = 1e-3
-"""How far off, as a share of the innermost ring's radius, a guess may be for its rings to be those of the centre."""
+"""How far off a guess may be for its rings to be the centre's, as a share of the innermost ring's radius."""
 
 
 @frozen(eq=False)
 class Ring:
     """Marks of one kind round a centre: their numbers, ordered by angle.
 
-    ``order`` is the highest turn that most of them fit, ``radius`` (mm) where their centroids stand, ``outer`` how far
-    they reach, about, and ``cover`` the share of the whole turn that they fill.
+    ``order`` is the highest turn that most of them fit, ``radius`` (mm) where their centroids stand,
+    ``outer`` how far they reach, about, and ``cover`` the share of the whole turn that they fill.
     """
 
     kind: int
@@ -88,7 +86,9 @@ class Rosette:
     def like(self, other: Rosette) -> bool:
         """Whether another has the same rings at the same radii, as far as it reaches."""
         both = [
-            sorted((ring.kind, len(ring.members), ring.radius) for ring in each.rings if ring.outer <= each.reach)
+            sorted(
+                (ring.kind, len(ring.members), ring.radius) for ring in each.rings if ring.outer <= each.reach
+            )
             for each in (self, other)
         ]
         return len(both[0]) == len(both[1]) and all(
@@ -121,8 +121,11 @@ def rosettes(marks: Marks, kinds: Indices) -> list[Rosette]:
             np.minimum.at(spacing, ring.members, ring.spacing)
     kept = []
     for each in found:
-        own = [ring for ring in each.rings if (spacing[ring.members] >= 0.98 * ring.spacing).mean() >= FITTING]
+        own = [
+            ring for ring in each.rings if (spacing[ring.members] >= 0.98 * ring.spacing).mean() >= FITTING
+        ]
         kept.append(Rosette(each.centre, tuple(ring for ring in own)))
+
     # Flowers that are alike come in reading order, whatever the last bits of their areas.
     def rank(rosette: Rosette) -> tuple[float, float, float]:
         x, y = rosette.centre.tolist()
@@ -150,10 +153,10 @@ def _seeds(marks: Marks, kinds: Indices) -> list[Place]:
         radii.append(radius[usable])
         weights.append(np.broadcast_to(marks.sizes[mine].mean(), int(usable.sum())))
     every, reach, weight = np.concatenate(places), np.concatenate(radii), np.concatenate(weights)
-    near = shapely.STRtree(shapely.points(every)).query(
+    near = shapely.STRtree(np.asarray(shapely.points(every))).query(
         shapely.points(every), predicate="dwithin", distance=TOGETHER * reach
     )
-    votes: Numbers = np.bincount(near[0], weight[near[1]], len(every))
+    votes: Numbers = np.bincount(near[0], weight[near[1]], len(every)).astype(np.float64)
     chosen: list[Place] = []
     for index in np.argsort(-votes, kind="stable").tolist():
         if len(chosen) == SEEDS or votes[index] <= 0:
@@ -168,8 +171,8 @@ def _seeds(marks: Marks, kinds: Indices) -> list[Place]:
 def _centre(marks: Marks, rings: Sequence[Ring]) -> Place:
     """Return the middle of the circles through the marks of rings about one point, by least squares.
 
-    Each ring has a circle of its own (Kåsa, "A circle fitting procedure and its error analysis", 1976); it does not
-    matter to it where marks are missing.
+    Each ring has a circle of its own (Kåsa, "A circle fitting procedure and its error analysis", 1976); it
+    does not matter to it where marks are missing.
     """
     square, right = np.zeros((2, 2)), np.zeros(2)
     for ring in rings:

@@ -1,4 +1,4 @@
-"""The command ``batik-vector analyse``: recipes and drawings are measured, and told of in the paper's terms."""
+"""What ``batik-vector analyse`` finds out: recipes and drawings, told of in the paper's terms."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from typing import Any
 
 from batik_vector.analysis import COLUMNS, Analysis, analyse
 from batik_vector.command.checks import is_drawing
-from batik_vector.command.jobs import made, read_jobs
 from batik_vector.errors import Fault, RecipeError
+from batik_vector.making.jobs import made, read_jobs
 from batik_vector.recipe.reading.sources import COMPILED
 from batik_vector.units import format_mm
 
@@ -51,13 +51,17 @@ def told(facts: dict[str, Any]) -> Iterator[str]:
     yield from _flower(facts)
     inks = ", ".join(f"{name} {100 * share:.1f} %" for name, share in list(facts["inks"].items())[:MOST_INKS])
     widths = facts["line_widths_mm"]
-    lines = f"lines {' to '.join(dict.fromkeys(format_mm(round(each, 2)) for each in widths))} mm; " if widths else ""
+    lines = (
+        f"lines {' to '.join(dict.fromkeys(format_mm(round(each, 2)) for each in widths))} mm; "
+        if widths
+        else ""
+    )
     yield f"  covers {100 * facts['covers']:.1f} % ({inks}); {lines}{facts['nodes']:,} nodes"
     fit = facts["box_dimension"]
     if fit is not None:
         yield (
-            f"  box dimension {fit['dimension']:.3f}, fitted from boxes of {fit['from_mm']:.2g} to {fit['to_mm']:.3g} mm, "
-            f"residual {fit['residual']:.3f}"
+            f"  box dimension {fit['dimension']:.3f}, fitted from boxes of {fit['from_mm']:.2g} to "
+            f"{fit['to_mm']:.3g} mm, residual {fit['residual']:.3f}"
         )
     yield from (f"  note: {words}" for words in facts["notes"])
 
@@ -77,9 +81,10 @@ def _flower(facts: dict[str, Any]) -> Iterator[str]:
 
 
 def table(sources: Sequence[str], found: Sequence[dict[str, Any]]) -> list[str]:
-    """Return a table of many sources, one line each in the columns of Table 2, those that could not be read too."""
+    """Return a table of many sources, one line each in the columns of Table 2, those that could not be read
+    too."""
     known = {facts["recipe"]: facts for facts in found}
-    rows = [("", *COLUMNS)]
+    rows: list[tuple[str, ...]] = [("", *COLUMNS)]
     for source in dict.fromkeys(sources):
         facts = known.get(source)
         if facts is None:
@@ -87,4 +92,6 @@ def table(sources: Sequence[str], found: Sequence[dict[str, Any]]) -> list[str]:
         else:
             rows.append((source, *(facts["row"][name] for name in COLUMNS)))
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    return ["  ".join(text.ljust(width) for text, width in zip(row, widths, strict=True)).rstrip() for row in rows]
+    return [
+        "  ".join(text.ljust(width) for text, width in zip(row, widths, strict=True)).rstrip() for row in rows
+    ]

@@ -266,14 +266,15 @@ def _tell_facts(facts: dict[str, Any]) -> None:
 
 @cli.command("analyse", short_help="Measure patterns: petals, symmetry, dimension.")
 @click.argument("sources", nargs=-1, required=True, metavar="RECIPE|SVG…")
-@_set
-@_json
+@set_option
+@json_option
 def analyse_command(sources: Sequence[str], overrides: Sequence[str], as_json: bool) -> None:
     """Measure patterns: elements, symmetry, layers of petals, their shape, petals and pistils.
 
-    These are the features by which Tian et al. (2019, Tables 1 and 2) judge patterns; besides, coverage, breadth of
-    lines, nodes and box dimension. All comes from geometry alone. A recipe is compiled and measured, an SVG, whoever
-    drew it, measured as it is drawn. Several make a table. Exits with 1 where a drawing holds no flower to be judged.
+    These are the features by which Tian et al. (2019, Tables 1 and 2) judge patterns; besides, coverage,
+    breadth of lines, nodes and box dimension. All comes from geometry alone. A recipe is compiled and
+    measured, an SVG, whoever drew it, measured as it is drawn. Several make a table. Exits with 1 where a
+    drawing holds no flower to be judged.
     """
     from batik_vector.command.analyses import analyse_source, table, told
 

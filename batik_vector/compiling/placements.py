@@ -112,7 +112,9 @@ def _dealt(
     vertices, among = 0, len(placement.motifs)
     for first, name in enumerate(placement.motifs):
         share = Share(layout=placement.layout, first=first, among=among)
-        part = place(replace(placement, motif=name, layout=share), recipe, unit, inks, limit - vertices, orbit)
+        part = place(
+            replace(placement, motif=name, layout=share), recipe, unit, inks, limit - vertices, orbit
+        )
         sheets += part.sheets
         vertices += part.vertices
     return Placed(sheets, vertices)

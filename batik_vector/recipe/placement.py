@@ -25,7 +25,9 @@ Place2D: TypeAlias = tuple[
 class Placement:
     """A motif set on the cloth by a layout, at a size and a place."""
 
-    motif: Annotated[Names, Says("name of the motif; a toss, a ring and the paper's layouts may have several")]
+    motif: Annotated[
+        Names, Says("name of the motif; a toss, a ring and the paper's layouts may have several")
+    ]
     layout: Annotated[AnyLayout, Says("how copies are set out")] = field(default_factory=Single)
     width: Annotated[
         Side | None,
@@ -88,19 +90,20 @@ class Placement:
             return
         if not (self.motifs and self.layout.deals):
             raise GeometryError(
-                f"motif = {self._listed()}: only a toss mixes several, and only rings and the paper's layouts deal "
-                "their places out in turn, expected one"
+                f"motif = {self._listed()}: only a toss mixes several, and only rings and the paper's "
+                "layouts deal their places out in turn, expected one"
             )
         if self.scale is None:
             raise GeometryError(
-                f"motif = {self._listed()}: several motifs are set out at one scale, expected scale instead of width"
+                f"motif = {self._listed()}: several motifs are set out at one scale, "
+                "expected scale instead of width"
             )
         images = self.layout.images((1.0, 1.0))
         places, names = 1 if isinstance(images, Bend) else len(images), len(self.motifs)
         if places < names or (places % names and not isinstance(self.layout, DoubleSquare)):
             raise GeometryError(
-                f"motif = {self._listed()}: {names} motifs in turn do not come out even on {places} places, expected "
-                f"a number of motifs that divides {places}"
+                f"motif = {self._listed()}: {names} motifs in turn do not come out even on {places} "
+                f"places, expected a number of motifs that divides {places}"
             )
 
     def _listed(self) -> str:

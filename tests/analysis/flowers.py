@@ -29,8 +29,9 @@ DROP: Points = [
 RHOMB: Points = [(0.2, 0), (0.62, 0.16), (1, 0), (0.62, -0.16)]
 HOOK: Points = [(0.25, 0), (0.5, 0.1), (0.8, 0.18), (0.98, 0.3), (0.9, 0.02), (0.7, -0.1), (0.5, -0.08)]
 FRILL: Points = [
-    (0.24, 0), (0.48, 0.1), (0.64, 0.2), (0.7, 0.17), (0.8, 0.25), (0.86, 0.17), (0.96, 0.15), (0.94, 0.06), (1.02, 0),
-    (0.94, -0.06), (0.96, -0.15), (0.86, -0.17), (0.8, -0.25), (0.7, -0.17), (0.64, -0.2), (0.48, -0.1),
+    (0.24, 0), (0.48, 0.1), (0.64, 0.2), (0.7, 0.17), (0.8, 0.25), (0.86, 0.17), (0.96, 0.15), (0.94, 0.06),
+    (1.02, 0), (0.94, -0.06), (0.96, -0.15), (0.86, -0.17), (0.8, -0.25), (0.7, -0.17), (0.64, -0.2),
+    (0.48, -0.1),
 ]  # fmt: skip
 PISTIL: Points = [(0.45, 0), (0.6, 0.012), (0.74, 0.028), (0.8, 0), (0.74, -0.028), (0.6, -0.012)]
 
@@ -78,7 +79,9 @@ class Case(NamedTuple):
 
 
 CASES = {
-    "seven petals": Case("2, rotation, 1/7, single, curved, 7, 1", (ring(DROP, 7), ring(PISTIL, 7, rest=CUT), HEART)),
+    "seven petals": Case(
+        "2, rotation, 1/7, single, curved, 7, 1", (ring(DROP, 7), ring(PISTIL, 7, rest=CUT), HEART)
+    ),
     "no pistils": Case("1, rotation, 1/8, single, curved, 8, none", (ring(DROP, 8), HEART)),
     "two layers": Case(
         "1, rotation, 1/8, double, curved, 8, none",
@@ -94,11 +97,18 @@ CASES = {
     ),
     "one petal a twentieth longer": Case(
         "2, rotation, none, single, curved, 8, 1",
-        (ring(DROP, 7, 45, rest="arc = 315"), ring(lengthened(DROP, 1.05), 1), ring(PISTIL, 8, rest=CUT), HEART),
+        (
+            ring(DROP, 7, 45, rest="arc = 315"),
+            ring(lengthened(DROP, 1.05), 1),
+            ring(PISTIL, 8, rest=CUT),
+            HEART,
+        ),
         "reflection",
     ),
     "one petal missing": Case(
-        "1, rotation, none, single, curved, 7, none", (ring(DROP, 7, 45, rest="arc = 315"), HEART), "reflection"
+        "1, rotation, none, single, curved, 7, none",
+        (ring(DROP, 7, 45, rest="arc = 315"), HEART),
+        "reflection",
     ),
     "one petal of another kind": Case(
         "1, rotation, none, single, curved, 8, none",
@@ -106,12 +116,17 @@ CASES = {
         "reflection",
     ),
     "a dot beside one petal": Case(
-        "1, rotation, none, single, curved, 8, none", (ring(DROP, 8), dots(0.03, 0.9, 1, 22.5), HEART), "reflection"
+        "1, rotation, none, single, curved, 8, none",
+        (ring(DROP, 8), dots(0.03, 0.9, 1, 22.5), HEART),
+        "reflection",
     ),
     "petals in two inks by turns": Case(
-        "1, rotation, 1/4, single, curved, 8, none", (ring(DROP, 4), ring(DROP, 4, 45, rest='ink = "light"'), HEART)
+        "1, rotation, 1/4, single, curved, 8, none",
+        (ring(DROP, 4), ring(DROP, 4, 45, rest='ink = "light"'), HEART),
     ),
-    "a dozen petals": Case("1, rotation, 1/12, single, curved, 10 or more, none", (ring(narrowed(DROP, 0.8), 12), HEART)),
+    "a dozen petals": Case(
+        "1, rotation, 1/12, single, curved, 10 or more, none", (ring(narrowed(DROP, 0.8), 12), HEART)
+    ),
     "nine petals": Case("1, rotation, 1/9, single, curved, 9, none", (ring(narrowed(DROP, 0.9), 9), HEART)),
     "six and twelve": Case(
         "1, rotation, 1/6, double, curved, 6 and 10 or more, none",

@@ -1,4 +1,5 @@
-"""The analyser: the paper's Table 2 from compiled drawings alone, and other rows where other things are drawn."""
+"""The analyser: the paper's Table 2 from compiled drawings alone, and other rows where other things are
+drawn."""
 
 from __future__ import annotations
 

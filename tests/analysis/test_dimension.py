@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -41,7 +42,8 @@ def sierpinski(steps: int) -> Geometries:
 
 
 def dragon(steps: int) -> Geometries:
-    """Return the region of the dragon: a small square on each edge of the curve, on a grid of whole numbers."""
+    """Return the region of the dragon: a small square on each edge of the curve, on a grid of whole
+    numbers."""
     points: Complexes = np.array([0, 2 ** (steps // 2) * 4], np.complex128)
     for _ in range(steps):
         a, step = points[:-1], np.diff(points)
@@ -49,7 +51,7 @@ def dragon(steps: int) -> Geometries:
         points = np.append(np.column_stack([a, a + step / 2 * (1 + 1j * side)]).ravel(), points[-1])
     a, step = points[:-1], np.diff(points)
     squares = np.column_stack([a, a + step / 2 * (1 + 1j), points[1:], a + step / 2 * (1 - 1j)])
-    region = shapely.union_all(shapely.polygons(np.stack([squares.real, squares.imag], axis=-1)))
+    region: Any = shapely.union_all(shapely.polygons(np.stack([squares.real, squares.imag], axis=-1)))
     return np.array([shapely.Polygon(region.exterior)], dtype=object)
 
 

@@ -37,6 +37,9 @@ def test_the_papers_leaf_and_petal_are_curved() -> None:
 
 
 def test_a_heart_is_curved_and_a_frill_wavy() -> None:
-    heart = shapely.union_all([shapely.Point(80, side * 9).buffer(11) for side in (-1, 1)] + [shapely.Polygon([(20, 0), (78, 19.9), (78, -19.9)])])
+    heart = shapely.union_all(
+        [shapely.Point(80, side * 9).buffer(11) for side in (-1, 1)]
+        + [shapely.Polygon([(20, 0), (78, 19.9), (78, -19.9)])]
+    )
     assert petal_shape(heart, CENTRE) == PetalShape.CURVED
     assert petal_shape(shapely.Polygon(FRILL), CENTRE) == PetalShape.WAVY

@@ -153,6 +153,13 @@ def inkscape_export(svg: Path, kind: str) -> Path:
     return out
 
 
+def inkscape_saved(svg: Path) -> Path:
+    """Return a drawing as Inkscape saves it in its own kind of SVG."""
+    out = svg.with_name("saved.svg")
+    run("inkscape", "--export-type=svg", f"--export-filename={out}", svg, home=svg.parent)
+    return out
+
+
 def inkscape_r14(svg: Path) -> Path:
     """Return what Inkscape writes as a DXF of release 14, as polylines; only its window can ask for it."""
     out = svg.with_suffix(".r14.dxf")

@@ -21,7 +21,12 @@ def test_a_recipe_is_told_of_in_words() -> None:
     lines = done.stderr.splitlines()
     assert lines[0] == f"{FIRST}: Figure 15, flower 1"
     assert lines[1] == f"  {TABLE_2[1]}"
-    for words in ("D8, rotation and reflection", "8 curved petals that reach 42 mm", "box dimension 1.", "nodes"):
+    for words in (
+        "D8, rotation and reflection",
+        "8 curved petals that reach 42 mm",
+        "box dimension 1.",
+        "nodes",
+    ):
         assert words in done.stderr, words
 
 
@@ -74,7 +79,10 @@ def test_a_drawing_without_a_flower_is_told_with_what_was_found(tmp_path: Path) 
     ("text", "words"),
     [
         ("<svg", "is no SVG"),
-        ('<svg xmlns="http://www.w3.org/2000/svg" width="9mm" height="9mm" viewBox="0 0 9 9"/>', "nothing is drawn"),
+        (
+            '<svg xmlns="http://www.w3.org/2000/svg" width="9mm" height="9mm" viewBox="0 0 9 9"/>',
+            "nothing is drawn",
+        ),
     ],
 )
 def test_what_cannot_be_read_ends_with_a_message(tmp_path: Path, text: str, words: str) -> None:

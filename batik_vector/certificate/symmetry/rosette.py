@@ -1,9 +1,9 @@
 """The rosette group of a figure: its turns and mirrors about one point, found from its outline alone.
 
-Leonardo's theorem has only the groups Cn and Dn to offer (Weyl, Symmetry, 1952). Which n may hold is read off the
-waves that the outline makes round the centre; whether it holds is measured as for the wallpaper groups, along the
-whole outline and by the same measure (:mod:`~batik_vector.certificate.symmetry.agreement`), so that a petal a
-twentieth longer than the others breaks the symmetry here as there.
+Leonardo's theorem has only the groups Cn and Dn to offer (Weyl, Symmetry, 1952). Which n may hold is read off
+the waves that the outline makes round the centre; whether it holds is measured as for the wallpaper groups,
+along the whole outline and by the same measure (:mod:`~batik_vector.certificate.symmetry.agreement`), so that
+a petal a twentieth longer than the others breaks the symmetry here as there.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from batik_vector.units import GRID_MM, STEPS_PER_MM
 from batik_vector.values import frozen
 
 MOST_TURNS = 128
-"""The highest order looked for: finer combs are taken for rotation by any angle, which no drawing of marks has."""
+"""The highest order looked for."""
 
 ANGLES, RADII = 1440, 24
 """Bins round the centre, and away from it, in which the outline is counted."""
@@ -57,10 +57,10 @@ Numbers = NDArray[np.float64]
 class Rosette:
     """The symmetry of a figure about its ``centre`` (mm).
 
-    ``order`` is how many turns bring it upon itself, the whole turn counted: 1 is none. ``mirrors`` says whether
-    there are as many mirrors as well, and ``axis`` in which direction one of them runs, in degrees from 0 to 180.
-    ``deviation`` (mm) is the most by which an image misses the figure. ``continuous`` figures are rings and discs
-    about the centre alone, which any turn keeps; their order says nothing.
+    ``order`` is how many turns bring it upon itself, the whole turn counted: 1 is none. ``mirrors`` says
+    whether there are as many mirrors as well, and ``axis`` in which direction one of them runs, in degrees
+    from 0 to 180. ``deviation`` (mm) is the most by which an image misses the figure. ``continuous`` figures
+    are rings and discs about the centre alone, which any turn keeps; their order says nothing.
     """
 
     order: int
@@ -203,7 +203,7 @@ def _reflection(angle: float) -> Matrix:
 
 
 def _rings(edges: Edges, middle: Vector, reach: float) -> Numbers:
-    """Return how much of the outline lies in each direction, ring by ring and kind by kind: (rings, ANGLES)."""
+    """Return how much of the outline lies in each direction, by ring and kind: shape (rings, ANGLES)."""
     step = edges.end - edges.begin
     length = np.hypot(*step.T)
     pieces = np.maximum(1, np.ceil(length * (ANGLES / (4 * reach)))).astype(np.intp)
@@ -216,7 +216,7 @@ def _rings(edges: Edges, middle: Vector, reach: float) -> Numbers:
     rest, weight = angle - place, length[row] / pieces[row]
     line = (edges.kind[row] * RADII + ring) * ANGLES
     size = (int(edges.kind.max(initial=0)) + 1) * RADII * ANGLES
-    rings: Numbers = np.bincount(line + place % ANGLES, weight * (1 - rest), size)
+    rings: Numbers = np.bincount(line + place % ANGLES, weight * (1 - rest), size).astype(np.float64)
     rings += np.bincount(line + (place + 1) % ANGLES, weight * rest, size)
     rings = rings.reshape(-1, ANGLES)
     rings = rings[rings.any(axis=1)]
@@ -247,7 +247,10 @@ def _axes(waves: NDArray[np.complex128], order: int) -> list[float]:
     place = at + np.clip((behind[at] - ahead[at]) / (2 * bend), -0.5, 0.5)
     angles: list[float] = []
     for angle in (place * (math.pi / ANGLES)).tolist():
-        apart = [abs((angle - other + math.pi / order / 2) % (math.pi / order) - math.pi / order / 2) for other in angles]
+        apart = [
+            abs((angle - other + math.pi / order / 2) % (math.pi / order) - math.pi / order / 2)
+            for other in angles
+        ]
         if all(each > math.pi / ANGLES for each in apart):
             angles.append(angle)
     return angles[:AXES]

@@ -31,8 +31,8 @@ def carried(first: Affine, system: Ifs) -> Affines | Bend:
 class Layout:
     """What every layout offers.
 
-    ``spreads`` says whether a placement's width measures all copies together, ``deals`` whether several motifs may take
-    its places in turn.
+    ``spreads`` says whether a placement's width measures all copies together, ``deals`` whether several
+    motifs may take its places in turn.
     """
 
     spreads: ClassVar[bool] = True

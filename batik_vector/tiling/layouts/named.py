@@ -1,8 +1,8 @@
 """The paper's layouts by name: the symmetric, the double-square, the four-square and the circles.
 
-They say no more than a rosette, a ring or a list of places could, in the words of Tian et al. 2019, §5.2: there P1 = 2
-gives the symmetric, 3 the three-circle, 4 the four-square and 5 the five-circle layout. Several motifs take their
-places in turn.
+They say no more than a rosette, a ring or a list of places could, in the words of Tian et al. 2019, §5.2:
+there P1 = 2 gives the symmetric, 3 the three-circle, 4 the four-square and 5 the five-circle layout. Several
+motifs take their places in turn.
 """
 
 from __future__ import annotations
@@ -42,10 +42,12 @@ class Symmetric(Layout):
 
 @frozen(kw_only=True)
 class DoubleSquare(Layout):
-    """Copies side by side in a row about the centre, as a pattern that goes on to two sides. Tian et al. 2019, §4.5.
+    """Copies side by side in a row about the centre, as a pattern that goes on to two sides. Tian et al.
+    2019, §4.5.
 
-    What goes on to two sides (*erfang lianxu*) and to four are the textbook's two kinds of repeats, and the paper's
-    double-square and four-square read as these. With JuliaN, P1 = 2, more iterations draw such a row too.
+    What goes on to two sides (*erfang lianxu*) and to four are the textbook's two kinds of repeats, and the
+    paper's double-square and four-square read as these. With JuliaN, P1 = 2, more iterations draw such a row
+    too.
     """
 
     deals: ClassVar[bool] = True

@@ -66,7 +66,9 @@ def test_a_double_square_is_a_row_that_more_iterations_of_julian_draw_too() -> N
     places = rows(DoubleSquare(count=3))[:, 4:]
     assert np.allclose(places, [(-8 / 3, 0), (0, 0), (8 / 3, 0)])
     two = rows(Julian(power=2, dist=2, level=2, shift=(4 / 3, 0.0)))[:, 4:]
-    assert {tuple(np.round(place, 9) + 0.0) for place in two} == {tuple(np.round(place, 9) + 0.0) for place in places}
+    assert {tuple(np.round(place, 9) + 0.0) for place in two} == {
+        tuple(np.round(place, 9) + 0.0) for place in places
+    }
     turned = rows(DoubleSquare(count=2, distance=2, axis=90, flip=True))
     assert np.allclose(turned[:, 4:], [(0, -1), (0, 1)])
     assert np.allclose(np.linalg.det(turned[:, :4].reshape(2, 2, 2)), [1, -1])
@@ -95,7 +97,9 @@ def compiled(text: str) -> Artwork:
 
 def test_several_motifs_take_their_places_in_turn() -> None:
     areas = compiled(RECIPE).layers[0].areas
-    by_angle = sorted(areas, key=lambda area: np.arctan2(area.centroid.y - 50, area.centroid.x - 50) % (2 * np.pi))
+    by_angle = sorted(
+        areas, key=lambda area: np.arctan2(area.centroid.y - 50, area.centroid.x - 50) % (2 * np.pi)
+    )
     assert [len(area.exterior.coords) > 5 for area in by_angle] in ([True, False] * 3, [False, True] * 3)
     assert analyse(compiled(RECIPE)).symmetry.order == 3
 
@@ -112,9 +116,17 @@ def test_every_named_layout_deals(kind: str) -> None:
     ("old", "new", "words"),
     [
         ("count = 6", "count = 5", '["round", "square"]: 2 motifs in turn do not come out even on 5 places'),
-        ("count = 6", "count = 1", "do not come out even on 1 places, expected a number of motifs that divides 1"),
+        (
+            "count = 6",
+            "count = 1",
+            "do not come out even on 1 places, expected a number of motifs that divides 1",
+        ),
         ('scale = "10 mm"', 'width = "90 mm"', "set out at one scale, expected scale instead of width"),
-        ('kind = "circle", count = 6, radius = 4', 'kind = "lattice"', "only rings and the paper's layouts deal"),
+        (
+            'kind = "circle", count = 6, radius = 4',
+            'kind = "lattice"',
+            "only rings and the paper's layouts deal",
+        ),
     ],
 )
 def test_what_cannot_be_dealt_out_is_refused(old: str, new: str, words: str) -> None:
