@@ -105,10 +105,9 @@ def found(
     if reference is not None:
         first, before = features.distance(reference)
         order = "distance, p.key"
-    elif query:
-        # Whose name has all the words comes before whose recipe has them.
-        words = text.terms(query)
-        order = f"{' + '.join(['(instr(p.key, ?) = 0)'] * len(words)) or '0'}, p.key"
+    elif words := text.terms(query):
+        # Whose name has the words comes before whose recipe has them, and first whose name has little else.
+        order = f"{' + '.join(['(instr(p.key, ?) = 0)'] * len(words))}, length(p.key), p.key"
         values += words
     asked = (
         f"SELECT {_HEAD}, {first} AS distance, {measured} {_FROM} JOIN measures m ON m.version = v.id "
