@@ -48,7 +48,7 @@ def test_what_the_library_knows_of_samples_and_starters_is_up_to_date() -> None:
 
 
 def test_no_sample_or_starter_has_changed_since_the_library_measured_it() -> None:
-    measured = {name: digest for name, (digest, _) in included.known().items()}
+    measured = {name: each.digest for name, each in included.known().items()}
     assert measured == {name: included.digest(path) for name, path in included.paths()}, MEND
 
 

@@ -207,12 +207,12 @@ def sheet_is_stale() -> bool:
 def included_page(found: list[Sample]) -> str:
     """Return what is measured of samples and starters, for the library to find them by."""
     pages = {each.path: each.page for each in found}
-    features = {}
+    known = {}
     for name, path in included.paths():
-        page = pages.get(path)
+        page, recipe = pages.get(path), load_recipe(path)
         tile = page if isinstance(page, Artwork) else None
-        features[name] = dict(measured(load_recipe(path), tile, pictures=False).features)
-    return included.written(features)
+        known[name] = recipe, dict(measured(recipe, tile, pictures=False).features)
+    return included.written(known)
 
 
 def included_is_stale(found: list[Sample]) -> bool:

@@ -273,9 +273,7 @@ def check_command(measure: bool, path: str | None, as_json: bool) -> None:
             collecting()
             _measure(library, left)
         elif left:
-            click.echo(
-                f"{len(left):,} patterns lack features: library check --measure finds them out", err=True
-            )
+            click.echo(f"{len(left):,} never measured: library check --measure finds them out", err=True)
         if not faults:
             click.echo(f"{library.path}: sound", err=True)
 

@@ -11,7 +11,12 @@ import json
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+from batik_vector.library.values import Page, page_of
+
+if TYPE_CHECKING:
+    from batik_vector import Recipe
 
 HERE = Path(__file__).parent
 MEASURED = HERE / "included.jsonl"
@@ -20,15 +25,6 @@ FOLDERS = {
     "starter": (HERE.parent / "starters",),
 }
 """Where recipes of each kind lie: in the installed package, or where it is worked on."""
-
-
-@dataclass(frozen=True)
-class Included:
-    """A sample or a starter: sample/kawung, its recipe's file, and what was measured of it."""
-
-    name: str
-    path: Path
-    features: dict[str, Any]
 
 
 def paths() -> Iterator[tuple[str, Path]]:
@@ -56,28 +52,48 @@ def digest(path: Path) -> str:
     return hashlib.sha256("\0".join(parts).encode("utf-8")).hexdigest()
 
 
-def known() -> dict[str, tuple[str, dict[str, Any]]]:
-    """Return the digest of each recipe when it was measured, and its features, by name."""
+@dataclass(frozen=True)
+class Known:
+    """What is known of a recipe: the digest it had then, its title, if it has drawings, and its features."""
+
+    digest: str
+    title: str
+    drawn: bool
+    features: dict[str, Any]
+
+
+def known() -> dict[str, Known]:
+    """Return what is known of each recipe, by name."""
     found = {}
     for line in MEASURED.read_text(encoding="utf-8").splitlines() if MEASURED.exists() else ():
         each = json.loads(line)
-        found[each["name"]] = each["digest"], each["features"]
+        found[each["name"]] = Known(each["digest"], each["title"], each["drawn"], each["features"])
     return found
 
 
-def included() -> Iterator[Included]:
-    """Yield all of them; what has changed since it was measured has no features."""
-    measured = known()
+def included() -> Iterator[tuple[str, Page, dict[str, Any]]]:
+    """Yield all of them by name, with what was measured; what has changed since then has no features."""
+    before = known()
     for name, path in paths():
-        before, features = measured.get(name, ("", {}))
-        yield Included(name, path, features if before == digest(path) else {})
+        each = before.get(name)
+        fresh = each is not None and each.digest == digest(path)
+        features = each.features if each is not None and fresh else {}
+        if each is None or not fresh or each.drawn:
+            from batik_vector import load_recipe
+
+            yield name, page_of(load_recipe(path)), features
+        else:
+            # To read all recipes takes a second, and nothing more of them is asked than their text.
+            yield name, Page(each.title, path.read_text(encoding="utf-8").replace("\r\n", "\n"), {}), features
 
 
-def written(features: dict[str, dict[str, Any]]) -> str:
-    """Return the page of what was measured, by names."""
-    lines = [
-        json.dumps({"name": name, "digest": digest(path), "features": features[name]}, ensure_ascii=False)
-        for name, path in paths()
-        if name in features
-    ]
+def written(found: dict[str, tuple[Recipe, dict[str, Any]]]) -> str:
+    """Return the page of what is known, by names of recipes and what was measured of them."""
+    lines = []
+    for name, path in paths():
+        if name in found:
+            recipe, features = found[name]
+            about: dict[str, Any] = {"name": name, "digest": digest(path), "title": recipe.title}
+            about |= {"drawn": bool(recipe.drawing), "features": features}
+            lines.append(json.dumps(about, ensure_ascii=False))
     return "".join(f"{line}\n" for line in lines)

@@ -14,10 +14,9 @@ from batik_vector import __version__
 from batik_vector.library.features import FEATURES, Value, coordinates
 from batik_vector.library.names import folded
 from batik_vector.library.text import searched
-from batik_vector.library.values import Details, Note, Saved, Version
+from batik_vector.library.values import Details, Note, Page, Saved, Version
 
 if TYPE_CHECKING:
-    from batik_vector import Recipe
     from batik_vector.library.measuring import Measured
 
 Connection = sqlite3.Connection
@@ -82,17 +81,17 @@ def delete(connection: Connection, pattern: int) -> None:
 def save(
     connection: Connection,
     name: str,
-    recipe: Recipe,
+    page: Page,
     time: str,
     origin: str,
     features: Mapping[str, Any],
     included: bool = False,
 ) -> Saved:
     """Save a recipe as the newest version of a pattern, unless the newest says the same."""
-    key, text, drawings = folded(name), recipe.written, recipe.drawing
+    key = folded(name)
     mine = pattern(connection, key, removed=True)
     before = version(connection, mine, None) if mine else None
-    if before and before.text == text and dict(before.drawings) == dict(drawings):
+    if before and before.text == page.text and dict(before.drawings) == dict(page.drawings):
         set_removed(connection, mine, None)
         if included:
             set_features(connection, before.id, features)
@@ -104,7 +103,7 @@ def save(
         )
         mine = int(made.lastrowid or 0)
     number = last_number(connection, mine) + 1
-    fresh = _insert(connection, mine, number, text, drawings, (recipe.title, time, origin, __version__))
+    fresh = _insert(connection, mine, number, page, (time, origin, __version__))
     set_features(connection, fresh, features)
     connection.execute("UPDATE patterns SET head = ?, removed = NULL WHERE id = ?", (fresh, mine))
     index(connection, mine)
@@ -114,8 +113,8 @@ def save(
 def copy(connection: Connection, old: Version, number: int, time: str, program: str) -> Saved:
     """Save an old version once more, as the newest, with all that was measured of it."""
     (mine,) = connection.execute("SELECT pattern FROM versions WHERE id = ?", (old.id,)).fetchone()
-    about = (old.title, time, f"version {old.number}", program)
-    fresh = _insert(connection, mine, number, old.text, old.drawings, about)
+    page = Page(old.title, old.text, old.drawings)
+    fresh = _insert(connection, mine, number, page, (time, f"version {old.number}", program))
     for table in ("measures", "coordinates", "details"):
         names = ", ".join(
             row[1] for row in connection.execute(f"PRAGMA table_info({table})") if row[1] != "version"
@@ -132,20 +131,19 @@ def _insert(
     connection: Connection,
     pattern: int,
     number: int,
-    text: str,
-    drawings: Mapping[str, str],
-    about: tuple[str, str, str, str],
+    page: Page,
+    about: tuple[str, str, str],
 ) -> int:
-    """Enter a version; ``about`` is its title, time, origin and the program's version."""
+    """Enter a version; ``about`` is its time, its origin and the program's version."""
     made = connection.execute(
         "INSERT INTO versions (pattern, number, recipe, title, saved, origin, program) "
         "VALUES (?, ?, ?, ?, ?, ?, ?)",
-        (pattern, number, _kept(connection, text), *about),
+        (pattern, number, _kept(connection, page.text), page.title, *about),
     )
     fresh = int(made.lastrowid or 0)
     connection.executemany(
         "INSERT INTO drawings VALUES (?, ?, ?)",
-        [(fresh, file, _kept(connection, drawn)) for file, drawn in drawings.items()],
+        [(fresh, file, _kept(connection, drawn)) for file, drawn in page.drawings.items()],
     )
     return fresh
 

@@ -24,7 +24,7 @@ from batik_vector.library.names import checked_name, checked_tags, folded, keys,
 from batik_vector.library.places import place
 from batik_vector.library.schema import SCHEMA, changing, opened, told
 from batik_vector.library.searching import Entry, Hit, found, listed
-from batik_vector.library.values import Details, Note, Saved, Stats, Version
+from batik_vector.library.values import Details, Note, Saved, Stats, Version, page_of
 
 if TYPE_CHECKING:
     from batik_vector import Artwork, Recipe
@@ -73,12 +73,9 @@ class Library:
         state = included.state()
         if not self.writable or state == rows.fact(self._connection, "included"):
             return
-        from batik_vector import load_recipe
-
         with changing(self._connection):
-            for each in included.included():
-                recipe = load_recipe(each.path)
-                rows.save(self._connection, each.name, recipe, self._now(), each.name, each.features, True)
+            for name, page, features in included.included():
+                rows.save(self._connection, name, page, self._now(), "batik-vector", features, True)
             names = {folded(name) for name, _ in included.paths()}
             for key, pattern in rows.included_keys(self._connection):
                 rows.set_removed(self._connection, pattern, None if key in names else self._now())
@@ -245,7 +242,7 @@ class Library:
 
             measured = measuring.measured(recipe, artwork)
         with self._changing() as connection:
-            saved = rows.save(connection, name, recipe, self._now(), origin, measured.features)
+            saved = rows.save(connection, name, page_of(recipe), self._now(), origin, measured.features)
             if saved.fresh or not rows.details(connection, saved.id).svg:
                 rows.set_details(connection, saved.id, measured)
             pattern = rows.pattern(connection, folded(name))

@@ -3,7 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+if TYPE_CHECKING:
+    from batik_vector import Recipe
+
+
+class Page(NamedTuple):
+    """What is kept of a recipe: its title, its page of TOML, and its drawings by the names of their files."""
+
+    title: str
+    text: str
+    drawings: Mapping[str, str]
+
+
+def page_of(recipe: Recipe) -> Page:
+    """Return what is kept of a recipe."""
+    return Page(recipe.title, recipe.written, dict(recipe.drawing))
 
 
 class Saved(NamedTuple):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 import pytest
 from hypothesis import given, settings
@@ -15,7 +16,7 @@ from batik_vector.library.measuring import Measured
 from tests.library.test_store import RECIPE
 from tests.thorough import examples
 
-PATTERNS = {
+PATTERNS: dict[str, dict[str, Any]] = {
     "a": {"width": 100.0, "height": 100.0, "inks": 1, "coverage": 20.0, "repeat": "grid", "vertices": 1000},
     "b": {
         "width": 100.0,
