@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
-from benchmarks.contests import BATIK, FORMATS, SLIDER_KNOBS, VPYPE_RINGS, Plan
+from benchmarks.contests import BATIK, FORMATS, SEARCHES, SLIDER_KNOBS, VPYPE_RINGS, Plan
 from benchmarks.drawing import RING, TIMES
 from benchmarks.results import Results, Spread, exponent, over_log
 
@@ -113,7 +113,7 @@ class Asked:
 def rows(results: Results, plan: Plan, said: str = "") -> list[Row]:
     """Return the rows of the acceptance list; ``said`` is what the page says by hand."""
     asked = Asked(results)
-    parts = (_svg, _dxf, _pdf, _three, _growth, _start, _slider, _motif)
+    parts = (_svg, _dxf, _pdf, _three, _growth, _start, _slider, _motif, _library)
     return [*(row for part in parts for row in part(asked, plan)), _explained(results, said)]
 
 
@@ -244,3 +244,12 @@ def _motif(asked: Asked, plan: Plan) -> Iterator[Row]:
     contest = "small drawing in a grid"
     words = f"and one of {VPYPE_RINGS * RING:,} segments ≥ 10× faster than by vpype"
     yield asked.faster(9, words, f"{contest}/vpype", f"{contest}/{BATIK}", 10)
+
+
+def _library(asked: Asked, plan: Plan) -> Iterator[Row]:
+    for way in SEARCHES:
+        words = f"{plan.patterns:,} patterns with pictures, {way}, in process, < 50 ms"
+        yield asked.below(10, words, f"library/{BATIK}/{way}", 0.050)
+    for name, words in (("search", "text and features"), ("like", "likeness")):
+        words = f"`batik-vector library search` in them by {words} < 200 ms of CPU"
+        yield asked.below(10, words, f"library command/{name}", 0.200)

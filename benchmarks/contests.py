@@ -15,6 +15,17 @@ from benchmarks.timing import OWN, PEERS
 
 FOUR_SQUARE = "samples/four-square.toml"
 FORMATS = ("svg", "pdf", "dxf")
+SEARCHES = (
+    "list",
+    "text",
+    "text of two letters",
+    "text in all",
+    "tag",
+    "feature",
+    "likeness",
+    "all together",
+)
+"""Ways of searching a library."""
 SLIDER_KNOBS = ("petal length", "pistil length", "leaf point", "size of all")
 """What is turned in the sample, one at a time."""
 BATIK = "batik_vector"
@@ -75,6 +86,8 @@ class Plan:
     """Squares in a row whose sides are joined."""
     cloth: tuple[int, ...]
     """Lengths of cloth in metres."""
+    patterns: int
+    """Patterns in a library."""
     rounds: int
     """How often everything runs."""
     starts: int
@@ -89,6 +102,7 @@ FULL = Plan(
     squares=40,
     merged=160,
     cloth=(1, 3, 10),
+    patterns=10_000,
     rounds=5,
     starts=11,
 )
@@ -100,6 +114,7 @@ QUICK = Plan(
     squares=12,
     merged=30,
     cloth=(1,),
+    patterns=200,
     rounds=2,
     starts=3,
 )
@@ -327,6 +342,28 @@ def motif(plan: Plan) -> list[Contest]:
     ]
 
 
+def library(plan: Plan) -> list[Contest]:
+    """A library of many patterns with pictures, searched within a process and as a command."""
+    inside = Entrant(BATIK, BATIK, own("library", str(plan.patterns), "{folder}"), True)
+    batik, file = str(OWN / "batik-vector"), "{folder}/patterns.library"
+    command = (
+        batik,
+        "library",
+        "search",
+        "kembang",
+        "--where",
+        "inks <= 3, coverage 20..40",
+        "--library",
+        file,
+    )
+    like = (batik, "library", "search", "--like", "sample/kawung", "--library", file)
+    commands = (
+        Entrant("search", "`library search kembang --where …`", command),
+        Entrant("like", "`library search --like …`", like),
+    )
+    return [Contest("library", (inside,), plan.rounds), Contest("library command", commands, plan.starts)]
+
+
 def facts(section: str, plan: Plan) -> list[Fact]:
     """Return what is to be found out about the files of a section."""
     if section == "pdf":
@@ -360,6 +397,7 @@ SECTIONS: Mapping[str, Callable[[Plan], list[Contest]]] = MappingProxyType(
         "levels": levels,
         "cloth": cloth,
         "motif": motif,
+        "library": library,
     }
 )
 """The sections by name, in the order in which they run."""

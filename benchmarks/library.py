@@ -1,7 +1,6 @@
 """The library of patterns: one of many is made, and searched in every way.
 
-python -m benchmarks.library make COUNT FILE     a library of so many patterns, with pictures
-python -m benchmarks.library search FILE         each way of searching it, timed within the process
+python -m benchmarks.library COUNT FOLDER     each way of searching so many patterns, timed within the process
 """
 
 from __future__ import annotations
@@ -18,6 +17,8 @@ from batik_vector.library import Library
 from batik_vector.library.measuring import Measured, measured
 from benchmarks.peers.drawn import let_go, tell, timed
 
+FILE = "patterns.library"
+"""What the library is called in the folder."""
 RECIPE = """# {story}, drawn for the {season}.
 title = "{title}"
 [motif.flower]
@@ -90,7 +91,7 @@ def make(count: int, path: Path) -> None:
             library.add(name, recipe, measured=made, tags=chance.sample(SEASONS[:3], 2), origin="generated")
 
 
-SEARCHES: Mapping[str, Callable[[Library], object]] = MappingProxyType(
+WAYS: Mapping[str, Callable[[Library], object]] = MappingProxyType(
     {
         "list": lambda library: library.entries(),
         "text": lambda library: library.search("yogya kembang"),
@@ -106,11 +107,14 @@ SEARCHES: Mapping[str, Callable[[Library], object]] = MappingProxyType(
 )
 
 
-def search(path: Path) -> None:
-    """Time every way of searching, the second time that it is asked."""
+def search(count: int, folder: Path) -> None:
+    """Time every way of searching when it is asked again; make the library where it is missing."""
+    path = folder / FILE
+    if not path.exists():
+        make(count, path)
     with Library(path, write=False) as library:
         found = {}
-        for name, asked in SEARCHES.items():
+        for name, asked in WAYS.items():
             asked(library)
             let_go()
             found[name], _ = timed(partial(asked, library))
@@ -118,7 +122,4 @@ def search(path: Path) -> None:
 
 
 if __name__ == "__main__":
-    if sys.argv[1] == "make":
-        make(int(sys.argv[2]), Path(sys.argv[3]))
-    else:
-        search(Path(sys.argv[2]))
+    search(int(sys.argv[1]), Path(sys.argv[2]))

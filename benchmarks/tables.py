@@ -7,7 +7,7 @@ from types import MappingProxyType
 from typing import Any
 
 from benchmarks.acceptance import LIMITS, MIB, NEAR, NOT_RUN, rows, seconds, times
-from benchmarks.contests import BATIK, FORMATS, SECTIONS, SLIDER_KNOBS, Contest, Plan
+from benchmarks.contests import BATIK, FORMATS, SEARCHES, SECTIONS, SLIDER_KNOBS, Contest, Plan
 from benchmarks.drawing import RING
 from benchmarks.results import Results, exponent, over_log
 
@@ -27,6 +27,7 @@ TITLES: Mapping[str, str] = MappingProxyType(
         "levels": "Levels of a layout",
         "cloth": "Metres of cloth",
         "motif": "A drawing of one's own",
+        "library": "The library",
     }
 )
 
@@ -261,6 +262,17 @@ def motif(contests: Sequence[Contest], results: Results) -> Iterator[str]:
         yield ""
 
 
+def library(contests: Sequence[Contest], results: Results) -> Iterator[str]:
+    """Yield what searching a library costs."""
+    inside, commands = contests
+    count = int(inside.entrants[0].command[-2])
+    names = {f"{way}, in process": f"library/{BATIK}/{way}" for way in SEARCHES}
+    names |= {each.says: f"{commands.name}/{each.name}" for each in commands.entrants}
+    body = [(says, cost(results, name), cost(results, name, "wall")) for says, name in names.items()]
+    yield from table((f"{count:,} patterns", "CPU", "wall"), body)
+    yield ""
+
+
 SHOWN: Mapping[str, Callable[[Sequence[Contest], Results], Iterator[str]]] = MappingProxyType(
     {
         **dict.fromkeys(("svg", "pdf", "dxf", "three"), races),
@@ -272,6 +284,7 @@ SHOWN: Mapping[str, Callable[[Sequence[Contest], Results], Iterator[str]]] = Map
         "levels": levels,
         "cloth": cloth,
         "motif": motif,
+        "library": library,
     }
 )
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import sys
 from pathlib import Path
@@ -10,9 +11,10 @@ import pytest
 import shapely
 
 from batik_vector import compile_recipe, read_recipe, write_artwork
-from benchmarks import limits, own, readback, stages
+from batik_vector.library import Library
+from benchmarks import library, limits, own, readback, stages
 from benchmarks.acceptance import Row, rows
-from benchmarks.contests import BATIK, FULL, QUICK, SECTIONS, Contest, Entrant, facts
+from benchmarks.contests import BATIK, FULL, QUICK, SEARCHES, SECTIONS, Contest, Entrant, facts
 from benchmarks.drawing import RING, evaluated, recipe
 from benchmarks.results import Results, exponent, over_log, spread
 from benchmarks.run import BEGIN, END, README, put_into
@@ -93,7 +95,7 @@ def test_what_was_not_measured_says_why() -> None:
     found.missing["svg alone/vpype_svg"] = "vpype could not be installed: no wheel"
     verdicts = rows(found, FULL)
     assert {row.passed for row in verdicts} == {None}
-    assert {row.line for row in verdicts} == set(range(1, 10))
+    assert {row.line for row in verdicts} == set(range(1, 11))
     assert by_words(verdicts, "SVG writer ≥ 100×").measured == "vpype could not be installed: no wheel"
 
 
@@ -172,3 +174,14 @@ def test_our_own_part_tells_every_stage(tmp_path: Path) -> None:
     own.prepare(4, tmp_path)
     for name in ("drawing.toml", "tiny.toml", "drawing.npy", "drawing.svg", "warm.svg"):
         assert (tmp_path / name).stat().st_size > 0
+
+
+def test_every_way_of_searching_a_library_is_timed(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    library.search(30, tmp_path)
+    told = json.loads(capsys.readouterr().out.splitlines()[-1])
+    assert set(told) == set(SEARCHES) == set(library.WAYS)
+    with Library(tmp_path / library.FILE) as opened:
+        assert len(opened.entries(own=True)) == 30
+        assert opened.check() == []

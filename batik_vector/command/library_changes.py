@@ -63,11 +63,12 @@ def add_command(
             with faults_told(report):
                 raise error
         for each, measured in _measured(found.patterns, processes, as_json):
-            with faults_told(report):
-                if isinstance(measured, BatikError):
+            if isinstance(measured, BatikError):
+                with faults_told(report):
                     raise measured
-                facts = _saved(library, each, measured, tags, note)
-                report["patterns"].append(facts)
+            else:
+                # Where one cannot be saved, no other can: a full disk is told once.
+                report["patterns"].append(_saved(library, each, measured, tags, note))
 
 
 def _saved(
