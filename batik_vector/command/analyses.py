@@ -7,10 +7,9 @@ from pathlib import Path
 from typing import Any
 
 from batik_vector.analysis import COLUMNS, Analysis, analyse
-from batik_vector.command.checks import is_drawing
+from batik_vector.command.drawing_files import is_drawing
 from batik_vector.errors import Fault, RecipeError
-from batik_vector.making.jobs import made, read_jobs
-from batik_vector.recipe.reading.sources import COMPILED
+from batik_vector.recipe.reading.sources import is_compiled
 from batik_vector.units import format_mm
 
 MOST_INKS = 6
@@ -29,11 +28,14 @@ def analyse_source(source: str, overrides: Sequence[str], tell: Callable[[str], 
             raise RecipeError([Fault(words, source=source)])
         tell(f"reading {Path(source).name}")
         return _facts(source, "geometry", analyse(source))
+    # What compiles recipes is imported for them alone: a drawing is measured in half a second.
+    from batik_vector.making.jobs import made, read_jobs
+
     (job,) = read_jobs([source], overrides)
     artwork = made(job, tell)
     tell("measuring")
     facts = _facts(source, "recipe", analyse(artwork))
-    if Path(source).suffix.lower() in COMPILED:
+    if is_compiled(source):
         facts["notes"].append("the recipe that it carries was analysed, not what the file draws")
     return facts
 

@@ -17,6 +17,7 @@ from batik_vector.artwork import Artwork
 from batik_vector.certificate import Asked, Certificate, Kind, Limits, certify, pointers
 from batik_vector.certificate.pointers import COLOUR, NAME, pointer_lines
 from batik_vector.command.carried_recipes import Promise, bled, differences, promised
+from batik_vector.command.drawing_files import is_drawing
 from batik_vector.compiling.compiler import compile_recipe, inspect
 from batik_vector.errors import BatikError, ExportError, Fault, GeometryError, RecipeError
 from batik_vector.export import render, write_all_whole
@@ -29,15 +30,13 @@ from batik_vector.making.jobs import Job, made, read_jobs, warnings
 from batik_vector.making.promised import asked_group
 from batik_vector.recipe.loading import read_recipe
 from batik_vector.recipe.model import Recipe
-from batik_vector.recipe.reading.sources import COMPILED, is_compiled, scheme_of, stem_of
+from batik_vector.recipe.reading.sources import is_compiled, stem_of
 from batik_vector.tiling.symmetry.groups import group
 from batik_vector.tiling.symmetry.machine_fit import per_cent
 from batik_vector.tiling.symmetry.repeats import parse_repeat
 from batik_vector.values import frozen
 
 Tell = Callable[[str], None]
-SNIFFED = 512
-"""Bytes at the beginning of a file that show whether it is an SVG under another name."""
 
 
 @frozen
@@ -107,27 +106,6 @@ def check_source(source: str, overrides: Sequence[str], wishes: Wishes, tell: Te
 
 def _fault(source: str, words: str) -> RecipeError:
     return RecipeError([Fault(words, source=source)])
-
-
-def is_drawing(source: str) -> bool:
-    """Whether a file is an SVG, by its name or by how it begins."""
-    path = Path(source)
-    if scheme_of(source)[0]:
-        return False
-    if path.is_dir():
-        raise _fault(source, f'is a folder, expected files, such as "{path / "*.svg"}"')
-    if path.suffix.lower() == ".svg":
-        return path.exists()
-    if path.suffix.lower() in (".toml", *COMPILED):
-        return False
-    try:
-        with path.open("rb") as file:
-            head = file.read(SNIFFED)
-    except (OSError, ValueError):
-        return False
-    if b"\0" in head or head.startswith((b"\xff\xd8\xff", b"GIF8", b"%!PS", b"%PDF")):
-        raise _fault(source, "is neither a recipe (.toml) nor an SVG drawing")
-    return head.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<")
 
 
 def _check_recipe(source: str, overrides: Sequence[str], wishes: Wishes, tell: Tell) -> Found:
