@@ -213,6 +213,8 @@ def _sum_up(found: Sequence[tuple[Try, Outcome]], planned: int) -> None:
 
 def _signals(found: Sequence[tuple[Try, Outcome]], moments: int) -> int:
     """Stop the slowest tries at random moments; return how many did not hear it in time."""
+    # What a shell runs in the background ignores Ctrl-C, and so would what it starts.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     slowest = sorted((pair for pair in found if pair[1].is_good), key=lambda pair: -pair[1].cpu)[:10]
     chance, wrong, longest = random.Random(1), 0, 0.0
     for number in range(moments):
