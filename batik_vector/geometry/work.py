@@ -41,8 +41,9 @@ PER_PAIR, PER_PAIR_VERTEX = 3.0, 0.006
 PER_BENT_VERTEX = 4.0
 """What a vertex costs of a motif that a layout bends: it is one of the many points that are tried."""
 
-PER_TRACED_POINT = 0.5
-"""What a point costs that is tried on the image of a curve under a map."""
+PER_TRACED_POINT, PER_TOLD_POINT = 0.6, 2.0
+"""What a point costs that is tried on the image of a curve under a map, and one where the tolerance has to be
+worked out at that place."""
 
 PER_RELATED_VERTEX = 0.1
 """What a vertex costs of shapes that are asked whether their insides meet."""
@@ -220,6 +221,39 @@ def spend_on_lines(lines: Geometries, *, each: bool = False) -> None:
     """
     count = int(shapely.get_num_coordinates(lines).sum())
     spend(count, self_crossings(lines, each=each) if count > FEW else 0.0, per_crossing=PER_SELF_CROSSING)
+
+
+def spend_on_growth(shapes: Geometries, reach: float) -> None:
+    """Take up the work of growing shapes, whose new outlines cross where strands lie nearer than both reach.
+
+    Args:
+        shapes: areas and lines.
+        reach: how far they are grown, in their unit.
+
+    Raises:
+        TooLargeError: as :func:`spend`.
+    """
+    count = int(shapely.get_num_coordinates(shapes).sum())
+    close = _close_strands(shapes, abs(reach)) if count > FEW and reach else 0.0
+    spend(count, close, per_vertex=PER_GROWN_VERTEX)
+
+
+def _close_strands(shapes: Geometries, reach: float) -> float:
+    """Return about how often vertices come near others of their shape that lie far off along the outline."""
+    xy, shape = shapely.get_coordinates(shapes, return_index=True)
+    step = np.hypot(*np.diff(xy, axis=0, prepend=xy[:1]).T)
+    step[np.append(True, shape[1:] != shape[:-1])] = 0.0
+    along = np.cumsum(step)
+    spacing = along[-1] / len(xy)
+    if not spacing:
+        return 0.0
+    close = 0
+    for one in _some(len(xy), SAMPLED):
+        first, stop = np.searchsorted(shape, (shape[one], shape[one] + 1))
+        near = np.hypot(*(xy[first:stop] - xy[one]).T) < 2 * reach
+        close += int(np.count_nonzero(near & (np.abs(along[first:stop] - along[one]) > 4 * reach)))
+    # Strands side by side are close all along, and their outlines cross once in a while.
+    return close * len(xy) / min(len(xy), SAMPLED) / 2 * min(1.0, 2 * spacing / reach)
 
 
 def refuse_pairs(tree: shapely.STRtree, boxes: Geometries) -> None:

@@ -104,3 +104,18 @@ def test_batches_are_all_rows_in_order_and_hold_no_more_than_they_may(sizes: lis
     found = [rows[each] for each in work.batches(rows, 10)]
     assert [size for each in found for size in each.tolist()] == sizes
     assert all(each.sum() <= 10 or len(each) == 1 for each in found)
+
+
+def zigzag(turns: int, pitch: float) -> shapely.LineString:
+    x = np.arange(2 * turns) * pitch / 2
+    return shapely.LineString(np.column_stack([x, np.arange(2 * turns) % 2]))
+
+
+def test_to_grow_strands_that_lie_close_costs_their_crossings(monkeypatch: pytest.MonkeyPatch) -> None:
+    apart, dense = (np.array([zigzag(400, pitch)], dtype=object) for pitch in (4.0, 0.01))
+    vertices = shapely.get_num_coordinates(apart).sum()
+    monkeypatch.setattr(work, "LIMIT", 2 * work.PER_GROWN_VERTEX * vertices)
+    work.spend_on_growth(apart, 0.2)
+    work.spend_on_growth(dense, 0.001)
+    with pytest.raises(TooLargeError, match="cross about"):
+        work.spend_on_growth(dense, 0.2)

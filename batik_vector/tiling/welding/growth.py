@@ -34,7 +34,7 @@ def grown(marks: Geometries, reach: float, tolerance: float) -> Geometries:
     if not len(marks):
         return marks
     work.spend_on_lines(marks, each=True)
-    work.spend(float(shapely.get_num_coordinates(marks).sum()), per_vertex=work.PER_GROWN_VERTEX)
+    work.spend_on_growth(marks, reach)
     return np.asarray(shapely.buffer(marks, reach, quad_segs=quad_segs(reach, tolerance)), dtype=object)
 
 
@@ -51,7 +51,7 @@ def grown_on_grid(shapes: Geometries, reach: float, corners: int = PLAIN_CORNERS
     """
     if not reach:
         return shapes
-    work.spend(float(shapely.get_num_coordinates(shapes).sum()), per_vertex=work.PER_GROWN_VERTEX)
+    work.spend_on_growth(shapes, reach * STEPS_PER_MM)
     return overlay.on_grid(
         np.asarray(shapely.buffer(shapes, reach * STEPS_PER_MM, quad_segs=corners), dtype=object)
     )

@@ -64,9 +64,11 @@ def trace_images(
     step[:-1] = z[1:] - z[:-1]
     middle = None if angles is None else angles.middle
 
+    per_point = work.PER_TOLD_POINT if callable(tolerance) else work.PER_TRACED_POINT
+
     def evaluate(piece: Indices, t: Array) -> Points:
         # A map of a steep power needs millions of points, near the limit of a curve again and again.
-        work.spend(len(t), per_vertex=work.PER_TRACED_POINT)
+        work.spend(len(t), per_vertex=per_point)
         point = z[piece] + step[piece] * t
         angle = None
         if middle is not None:
