@@ -45,6 +45,8 @@ if TYPE_CHECKING:
     from batik_vector.export import render as render
     from batik_vector.export import write_all_whole as write_all_whole
     from batik_vector.export import write_artwork as write_artwork
+    from batik_vector.making.sweeping import Variation as Variation
+    from batik_vector.making.sweeping import sweep as sweep
     from batik_vector.recipe.border import BorderSpec as BorderSpec
     from batik_vector.recipe.border import RailSpec as RailSpec
     from batik_vector.recipe.loading import load_recipe as load_recipe
@@ -87,6 +89,7 @@ _HOMES = {
         "write_all_whole",
         "write_artwork",
     ),
+    "batik_vector.making.sweeping": ("Variation", "sweep"),
     "batik_vector.recipe.model": ("ClothSpec", "InkSpec", "Placement", "Recipe", "TileSpec", "YardageSpec"),
     "batik_vector.recipe.motif": ("Element", "Flower", "Rosette"),
     "batik_vector.recipe.loading": ("load_recipe", "read_recipe"),

@@ -62,13 +62,28 @@ def add_command(
         for error in found.faults:
             with faults_told(report):
                 raise error
-        for each, measured in _measured(found.patterns, processes, as_json):
-            if isinstance(measured, BatikError):
-                with faults_told(report):
-                    raise measured
-            else:
-                # Where one cannot be saved, no other can: a full disk is told once.
-                report["patterns"].append(_saved(library, each, measured, tags, note))
+        save_all(library, found.patterns, processes, report, tags=tags, note=note, quiet=as_json)
+
+
+def save_all(
+    library: Library,
+    patterns: Sequence[Incoming],
+    processes: int,
+    report: dict[str, Any],
+    *,
+    tags: Sequence[str] = (),
+    note: str = "",
+    quiet: bool = False,
+) -> None:
+    """Measure recipes and save them; tell what does not compile, and note in the report what was saved."""
+    report.setdefault("patterns", [])
+    for each, measured in _measured(patterns, processes, quiet):
+        if isinstance(measured, BatikError):
+            with faults_told(report):
+                raise measured
+        else:
+            # Where one cannot be saved, no other can: a full disk is told once.
+            report["patterns"].append(_saved(library, each, measured, tags, note))
 
 
 def _saved(

@@ -39,6 +39,8 @@ class Wishes:
     sheet: tuple[str, ...]
     paper: str
     jobs: int
+    scheduler: str
+    into_library: bool
     as_json: bool
 
     def making(self, ending: str) -> Making:
@@ -95,6 +97,12 @@ def _shared(folder: str) -> Callable[[Command], Command]:
         ),
         click.option("--paper", default="A4", metavar="SIZE", help="Of the sheet: A5 to A0.  [default: A4]"),
         jobs_option,
+        click.option(
+            "--scheduler",
+            metavar="ADDRESS",
+            help="Let the workers of a Dask cluster do it, as tcp://10.0.0.5:8786.",
+        ),
+        click.option("--into-library", is_flag=True, help="Also save each variant in the library."),
         json_option,
     ]
 
@@ -221,6 +229,8 @@ def _wishes(**given: Any) -> Wishes:
         sheet,
         given["paper"],
         given["jobs"],
+        given["scheduler"] or "",
+        given["into_library"],
         given["as_json"],
     )
 
@@ -248,7 +258,7 @@ def _make(
     report |= {"folder": planned.making.folder, "variants": len(planned.variants), "made": [], "failed": []}
     quiet = wishes.as_json or None
     with tqdm(total=len(planned.variants), unit="variant", delay=1, disable=quiet, leave=False) as bar:
-        for outcome in planned.run(wishes.jobs):
+        for outcome in planned.run(wishes.jobs, wishes.scheduler):
             bar.update()
             if outcome.result is None:
                 failed.append(outcome)
@@ -262,8 +272,25 @@ def _make(
     kept = f", {there:,} were there" if there else ""
     missing = f", {len(failed):,} could not be made" if failed else ""
     click.echo(f"{planned.making.folder}: {made:,} variants made{kept}{missing}", err=True)
+    if wishes.into_library:
+        _save(planned, wishes, report, {outcome.task.number for outcome in failed})
     if wishes.sheet:
         _draw_sheet(planned, wishes, report, caption, about, columns)
+
+
+def _save(planned: Sweep, wishes: Wishes, report: dict[str, Any], failed: set[int]) -> None:
+    """Save the variants that could be made in the library, under their names."""
+    from batik_vector.command.library_changes import save_all
+    from batik_vector.library import Library
+    from batik_vector.library.exchange import Incoming
+
+    made = [variant for variant in planned.variants if variant.number not in failed]
+    patterns = [
+        Incoming(variant.name, planned.making.recipe(variant), f"a sweep of {wishes.recipe}", ("sweep",))
+        for variant in made
+    ]
+    with Library(None) as library:
+        save_all(library, patterns, wishes.jobs, report, quiet=wishes.as_json)
 
 
 def _told(outcome: Outcome[Variant, Made], **more: Any) -> dict[str, Any]:

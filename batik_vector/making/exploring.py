@@ -206,9 +206,7 @@ class Trial:
         Raises:
             RecipeError, GeometryError, SeamError: with what it lacks.
         """
-        making = self.making
-        changes = (*making.overrides, *variant.changes)
-        recipe = read_recipe(making.text, making.source, changes, making.recipe_folder)
+        recipe = self.making.recipe(variant)
         artwork = compile_recipe(recipe)
         if lack := self.floor.fault(artwork):
             raise GeometryError(lack)

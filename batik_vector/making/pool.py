@@ -68,7 +68,7 @@ def outcomes(
         workers: processes.
     """
     if workers <= 1:
-        yield from (Outcome(task, *_tried(work, task)) for task in tasks)
+        yield from (Outcome(task, *tried(work, task)) for task in tasks)
         return
     pool = _Pool(work, workers)
     try:
@@ -77,7 +77,8 @@ def outcomes(
         pool.end()
 
 
-def _tried(work: Callable[[Task], Result], task: Task) -> tuple[Result | None, Failure | None]:
+def tried(work: Callable[[Task], Result], task: Task) -> tuple[Result | None, Failure | None]:
+    """Return what comes of a task: a result, or why there is none. Defects of this program are raised."""
     try:
         return work(task), None
     except RecipeError as error:
@@ -169,7 +170,7 @@ def _serve(pipe: Connection, work: Callable[[Any], Any]) -> None:
         while True:
             task = pipe.recv()
             try:
-                told = (*_tried(work, task), "")
+                told = (*tried(work, task), "")
             except Exception:
                 import traceback
 

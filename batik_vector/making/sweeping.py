@@ -9,20 +9,24 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, BinaryIO
 
 from batik_vector._version import __version__
-from batik_vector.artwork import Page
-from batik_vector.errors import ExportError, RecipeError
+from batik_vector.artwork import Artwork, Page
+from batik_vector.compiling.compiler import compile_recipe
+from batik_vector.errors import BatikError, ExportError, RecipeError
 from batik_vector.export.files import write_whole
 from batik_vector.making.jobs import Job, check_folder, drawings_of, make_folder, planned, run
 from batik_vector.making.pool import Outcome, outcomes
 from batik_vector.making.thumbnails import Thumbnail, thumbnail
-from batik_vector.making.variants import Variant
+from batik_vector.making.variants import Variant, parse_axis, variants
 from batik_vector.recipe.loading import read_recipe
-from batik_vector.recipe.reading.sources import stem_of
+from batik_vector.recipe.model import Recipe
+from batik_vector.recipe.reading.sources import read_text, stem_of
 from batik_vector.values import frozen
 
 
@@ -53,7 +57,7 @@ class Making:
 
     source: str
     text: str
-    recipe_folder: str
+    recipe_folder: str | None
     folder: str
     overrides: tuple[str, ...] = ()
     formats: tuple[str, ...] = ()
@@ -76,10 +80,17 @@ class Making:
         files = tuple((path.name, _digest(path)) for path, _ in job.files)
         return Made(variant, files, report, pictures[0] if pictures else None)
 
+    def recipe(self, variant: Variant) -> Recipe:
+        """Return the recipe of a variant.
+
+        Raises:
+            RecipeError: where it is wrong.
+        """
+        return read_recipe(self.text, self.source, (*self.overrides, *variant.changes), self.recipe_folder)
+
     def _job(self, variant: Variant) -> Job:
         changes = (*self.overrides, *variant.changes)
-        recipe = read_recipe(self.text, self.source, changes, self.recipe_folder)
-        job = Job(self.source, recipe, changes, stem=variant.name)
+        job = Job(self.source, self.recipe(variant), changes, stem=variant.name)
         return planned([job], Path(self.folder), self.formats)[0]
 
     def key(self, variant: Variant, drawings: str = "") -> str:
@@ -213,11 +224,15 @@ class Sweep:
         """Where it is noted what has been made."""
         return Path(self.making.folder) / f"{stem_of(self.making.source)}-sweep.jsonl"
 
-    def run(self, workers: int = 1) -> Iterator[Outcome[Variant, Made]]:
+    def run(self, workers: int = 1, scheduler: str = "") -> Iterator[Outcome[Variant, Made]]:
         """Make what is not there yet; yield each variant as it is done, those that were there first.
 
+        Args:
+            workers: processes on this machine.
+            scheduler: the address of a Dask scheduler, whose workers do it instead.
+
         Raises:
-            ExportError: where the manifest cannot be written.
+            ExportError: where the manifest cannot be written, or the cluster cannot be used.
         """
         manifest = Manifest(self.manifest)
         keys = [self.making.key(variant, self.drawings) for variant in self.variants]
@@ -230,11 +245,27 @@ class Sweep:
                 yield Outcome(variant, found)
         if todo:
             make_folder(self.manifest.parent)
-        for outcome in outcomes(self.making, todo, min(workers, len(todo))):
+        for outcome in self._outcomes(todo, workers, scheduler):
             if outcome.result is not None:
                 manifest.add(outcome.result, keys[outcome.task.number])
             yield outcome
         manifest.settle(keys)
+
+    def _outcomes(
+        self, todo: Sequence[Variant], workers: int, scheduler: str
+    ) -> Iterator[Outcome[Variant, Made]]:
+        if not scheduler or not todo:
+            yield from outcomes(self.making, todo, min(workers, len(todo)))
+            return
+        from batik_vector.making.cluster import Elsewhere, outcomes_on, written
+
+        # There the recipe carries the drawings that it names, for its folder is here.
+        recipe = read_recipe(self.making.text, self.making.source, folder=self.making.recipe_folder)
+        elsewhere = Elsewhere(replace(self.making, text=recipe.source, recipe_folder=None))
+        for outcome in outcomes_on(scheduler, elsewhere, todo):
+            sent = outcome.result
+            made = None if sent is None else written(self.making, sent)
+            yield Outcome(outcome.task, made, outcome.failure)
 
     def pictures(self) -> Iterator[tuple[Variant, Thumbnail | None]]:
         """Yield all variants with their pictures, once they are made; None for those that could not be."""
@@ -263,7 +294,68 @@ def planned_sweep(making: Making, variants: Sequence[Variant]) -> Sweep:
 
 def _faults(making: Making, variant: Variant) -> Sequence[Any]:
     try:
-        read_recipe(making.text, making.source, (*making.overrides, *variant.changes), making.recipe_folder)
+        making.recipe(variant)
     except RecipeError as error:
         return error.faults
     return ()
+
+
+@frozen
+class Variation:
+    """A variant in Python: what was set, the recipe and its tile, or the error where there is none."""
+
+    name: str
+    changes: tuple[str, ...]
+    recipe: Recipe | None
+    artwork: Artwork | None
+    error: BatikError | None = None
+
+
+def sweep(
+    recipe: str | os.PathLike[str] | Recipe,
+    vary: Mapping[str, str | Sequence[Any]],
+    *,
+    sample: int = 0,
+    seed: int = 0,
+) -> Iterator[Variation]:
+    """Yield the variants of a recipe as they are compiled, every combination or a sample of them.
+
+    Args:
+        recipe: its file, or a recipe that was read from text.
+        vary: values for each key, as a list or as the command takes them: ``{"pistil.count": [8, 16],
+            "petal.length": "0.6:1.2:5"}``.
+        sample: how many; 0 takes all combinations.
+        seed: which sample.
+
+    Raises:
+        RecipeError: where the recipe or what is varied is wrong; a single variant yields its error instead.
+    """
+    if isinstance(recipe, Recipe):
+        text, source, folder = recipe.source, "recipe", None
+        if not text:
+            raise RecipeError("this recipe was made in Python: expected one that was read from text")
+    else:
+        source = os.fspath(recipe)
+        text, folder = read_text(source), os.path.dirname(source) or "."
+        read_recipe(text, source, folder=folder)
+    axes = [parse_axis(f"{key}={_as_written(values)}") for key, values in vary.items()]
+    found = variants(axes, stem_of(source), sample=sample, seed=seed)
+    return _compiled(found, text, source, folder)
+
+
+def _as_written(values: str | Sequence[Any]) -> str:
+    if isinstance(values, str):
+        return values
+    import tomlkit
+
+    return ",".join(tomlkit.item(value).as_string() for value in values)
+
+
+def _compiled(found: Iterator[Variant], text: str, source: str, folder: str | None) -> Iterator[Variation]:
+    for variant in found:
+        made: Recipe | None = None
+        try:
+            made = read_recipe(text, source, variant.changes, folder)
+            yield Variation(variant.name, variant.changes, made, compile_recipe(made))
+        except BatikError as error:
+            yield Variation(variant.name, variant.changes, made, None, error)

@@ -16,8 +16,10 @@ import pytest
 from click.testing import CliRunner, Result
 from PIL import Image
 
+from batik_vector import sweep
 from batik_vector.command.cli import cli
 from batik_vector.command.sweeps import SHEET_FORMATS
+from batik_vector.errors import RecipeError
 from batik_vector.making import sheets
 from tests.thorough import examples, long
 
@@ -202,3 +204,29 @@ def test_many_recipes_are_compiled_on_several_cores_by_a_pattern(desk: Path) -> 
     missing = CliRunner().invoke(cli, ["compile", "c*.toml"])
     assert "c*.toml: no such file" in missing.output
     assert missing.exit_code == 2
+
+
+def test_in_python_variants_come_one_by_one_with_their_errors(desk: Path) -> None:
+    found = list(sweep("dots.toml", {"elements.count": [3, 0], "place.width": "10mm:20mm:2"}))
+    assert found[0].changes == ("elements.count=3", "place.width=10 mm")
+    assert [each.artwork is not None for each in found] == [True, True, False, False]
+    assert "0, expected 1 to 1000" in str(found[2].error)
+    assert found[1].artwork is not None
+    (areas,) = (layer.areas for layer in found[1].artwork.layers)
+    assert areas.tolist()
+    assert found[1].recipe is not None
+    assert len(list(sweep(found[1].recipe, {"elements.radius": "1:3"}, sample=5))) == 5
+    with pytest.raises(RecipeError, match="nothing is varied"):
+        sweep("dots.toml", {})
+
+
+def test_variants_are_saved_in_the_library_when_asked(desk: Path) -> None:
+    result = CliRunner().invoke(
+        cli, ["--library", "l.db", "sweep", "dots.toml", "--vary", "elements.count=3,4", "--into-library"]
+    )
+    assert result.exit_code == 0, result.output
+    compiled = CliRunner().invoke(
+        cli, ["--library", "l.db", "compile", "library:dots_count-4", "-o", "again"]
+    )
+    assert compiled.exit_code == 0, compiled.output
+    assert Path("again/dots_count-4.svg").read_bytes() == Path("dots-sweep/dots_count-4.svg").read_bytes()
