@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import shapely
@@ -13,17 +14,22 @@ from batik_vector.analysis.figures import coverage, line_widths, nodes
 from batik_vector.analysis.flower import TIPS, Flower, flower_of
 from batik_vector.analysis.lobes import taken_apart
 from batik_vector.analysis.marks import Indices, Marks, kinds_of, marks_of
-from batik_vector.analysis.report import NONE, Analysis, Symmetry
+from batik_vector.analysis.report import NONE, Analysis, Features, Symmetry
 from batik_vector.analysis.report import Layer as LayerFound
-from batik_vector.analysis.rings import rosettes
+from batik_vector.analysis.rings import Rosette, rosettes
 from batik_vector.artwork import Artwork, Geometries
 from batik_vector.artwork import Layer as InkLayer
 from batik_vector.certificate.symmetry.rosette import found_rosette
 from batik_vector.fields import given
 from batik_vector.importing.svg import read_svg
+from batik_vector.values import defaults
 
 MOST_MARKS, MOST_KINDS = 30_000, 400
 """Marks, and kinds of them, past which a drawing is a tracing and no pattern of marks."""
+
+MOST_FLOWERS, NEARLY, CLEAR = 3, 0.5, 0.85
+"""Flowers that are told of; how far another one reaches at the least, to the largest; and how far apart they
+stand, to the reach of both."""
 
 SAMPLED_MM = 0.02
 """How far (mm) the polylines of a stranger may stand from true curves: as far as ours do."""
@@ -55,11 +61,11 @@ def analyse(source: Artwork | str | os.PathLike[str] | bytes) -> Analysis:
 def _analysed(artwork: Artwork, count: int, notes: Sequence[str], tolerance: float | None = None) -> Analysis:
     layers, tolerance = artwork.layers, tolerance or artwork.tolerance
     marks = marks_of(layers)
-    kinds, best, why = _flower(marks)
+    kinds, flowers, why = _flowers(marks)
     covered, coverages = coverage(layers, artwork.cell)
     areas = np.concatenate([layer.areas for layer in layers]) if layers else np.empty(0, dtype=object)
     lines = np.concatenate([layer.lines for layer in layers]) if layers else np.empty(0, dtype=object)
-    figures = {
+    figures: dict[str, Any] = {
         "title": artwork.title,
         "marks": len(marks),
         "coverage": covered,
@@ -69,7 +75,7 @@ def _analysed(artwork: Artwork, count: int, notes: Sequence[str], tolerance: flo
         "dimension": box_dimension(areas, lines),
         "notes": tuple(notes),
     }
-    if best is None:
+    if not flowers:
         repeated = 0 if kinds is None else int((np.bincount(kinds, minlength=1) > 1).sum())
         return Analysis(
             judged=False,
@@ -80,16 +86,25 @@ def _analysed(artwork: Artwork, count: int, notes: Sequence[str], tolerance: flo
             symmetry=_symmetry(layers, tolerance)
             if len(marks) and kinds is not None
             else Symmetry("C1", 1, NONE, None, 0.0),
-            **figures,  # type: ignore[arg-type]
+            **figures,
         )
-    flower, alike = best
-    x, y = flower.centre.tolist()
-    own = [_within(layer, (x, y), flower.reach) for layer in layers]
-    found = found_rosette(own, (x, y), tolerance)
+    largest, *others = (_features(flower, alike, layers, tolerance) for flower, alike in flowers)
     return Analysis(
         judged=True,
         reason="",
         kinds=0 if kinds is None else int(kinds.max()) + 1,
+        others=tuple(others),
+        **{name: getattr(largest, name) for name in defaults(largest)},
+        **figures,
+    )
+
+
+def _features(flower: Flower, alike: int, layers: Sequence[InkLayer], tolerance: float) -> Features:
+    """Return the features of a flower; its symmetry is measured on the layers."""
+    x, y = flower.centre.tolist()
+    own = [_within(layer, (x, y), flower.reach) for layer in layers]
+    found = found_rosette(own, (x, y), tolerance)
+    return Features(
         elements=flower.elements,
         relation="rotation",
         symmetry=Symmetry(found.name, found.order, found.kind, found.axis, found.deviation),
@@ -100,40 +115,49 @@ def _analysed(artwork: Artwork, count: int, notes: Sequence[str], tolerance: flo
         flowers=alike,
         centre=(x, y),
         reach=flower.reach,
-        **figures,  # type: ignore[arg-type]
     )
 
 
-def _flower(marks: Marks) -> tuple[Indices | None, tuple[Flower, int] | None, str]:
-    """Return the kinds of marks, the largest flower and how many are like it; or why there is none."""
+def _flowers(marks: Marks) -> tuple[Indices | None, list[tuple[Flower, int]], str]:
+    """Return the kinds of marks, the flowers with how many are like each, or why there is none.
+
+    The largest comes first, then others that are no part of it and nearly as large.
+    """
     if not len(marks):
-        return None, None, "nothing is drawn"
+        return None, [], "nothing is drawn"
     if len(marks) > MOST_MARKS:
-        return None, None, f"{len(marks):,} marks are a tracing, expected at most {MOST_MARKS:,}"
+        return None, [], f"{len(marks):,} marks are a tracing, expected at most {MOST_MARKS:,}"
     kinds = kinds_of(marks, MOST_KINDS)
-    if kinds is None:
-        return None, None, f"{len(marks):,} marks of more than {MOST_KINDS} shapes: no pattern of like marks"
-    found = rosettes(marks, kinds)
+    found = [] if kinds is None else rosettes(marks, kinds)
     apart = taken_apart(marks, found)
-    if apart is not marks:
+    if kinds is not None and apart is not marks:
         marks = apart
         kinds = kinds_of(marks, MOST_KINDS)
-        if kinds is None:
-            return (
-                None,
-                None,
-                f"{len(marks):,} marks of more than {MOST_KINDS} shapes: no pattern of like marks",
-            )
-        found = rosettes(marks, kinds)
+        found = [] if kinds is None else rosettes(marks, kinds)
+    if kinds is None:
+        return None, [], f"{len(marks):,} marks of more than {MOST_KINDS} shapes: no pattern of like marks"
+    flowers: list[tuple[Flower, int]] = []
+    told: list[Rosette] = []
     for rosette in found:
+        if len(flowers) == MOST_FLOWERS or any(rosette.like(other) for other in told):
+            continue
         flower = flower_of(marks, rosette)
-        if flower is not None:
-            return kinds, (flower, sum(rosette.like(other) for other in found)), ""
+        if flower is not None and all(_beside(flower, other) for other, _ in flowers):
+            flowers.append((flower, sum(rosette.like(other) for other in found)))
+            told.append(rosette)
+    if flowers:
+        return kinds, flowers, ""
     shapes = int(kinds.max()) + 1
     counts = (
         f"{len(marks):,} mark{'s' if len(marks) > 1 else ''} of {shapes:,} shape{'s' if shapes > 1 else ''}"
     )
-    return kinds, None, f"{counts}, and no three alike that stand round a point as petals do"
+    return kinds, [], f"{counts}, and no three alike that stand round a point as petals do"
+
+
+def _beside(flower: Flower, other: Flower) -> bool:
+    """Whether a flower is nearly as large as another one and stands clear of it."""
+    away = float(np.hypot(*(flower.centre - other.centre)))
+    return flower.reach >= NEARLY * other.reach and away >= CLEAR * (flower.reach + other.reach)
 
 
 def _within(layer: InkLayer, centre: tuple[float, float], reach: float) -> InkLayer:

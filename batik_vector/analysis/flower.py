@@ -133,7 +133,9 @@ def _reaching(marks: Marks, rosette: Rosette, inner: Numbers, outer: Numbers) ->
     closed = [ring for ring in rosette.rings if ring.cover >= COVER]
     if not closed:
         return [], 0.0
-    main = max(closed, key=area)
+    # Marks in mirrored pairs, as wings of butterflies round a flower, are petals where there are no others.
+    single = [ring for ring in closed if len(ring.members) <= ring.order]
+    main = max(single or closed, key=area)
     reach = float(np.median(outer[main.members]))
     for ring in sorted(closed, key=lambda ring: float(np.median(inner[ring.members]))):
         follows = FOLLOWING if _petal_like(marks, ring.members, main.members) else PEEPING

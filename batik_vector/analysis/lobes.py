@@ -25,8 +25,8 @@ LEAST_SIZE = 0.1
 RADII = 96
 """Circles on which lobes are counted."""
 
-DEEP = 0.15
-"""How far apart, as a share of the reach, the circles have to be that cross the same lobes."""
+DEEP, SURELY_DEEP = 0.12, 0.3
+"""How long lobes are at the least, to the mark's reach; and where it stands in a ring, as no folds are."""
 
 HULL = 0.9
 """The share of its convex hull that a mark with lobes fills at the most."""
@@ -49,8 +49,9 @@ def taken_apart(marks: Marks, found: Sequence[Rosette]) -> Marks:
     """
     if not len(marks):
         return marks
-    fewest = np.full(len(marks), FEWEST)
-    fewest[members([ring for rosette in found for ring in rosette.rings])] = SURE
+    fewest, deep = np.full(len(marks), FEWEST), np.full(len(marks), DEEP)
+    ringed = members([ring for rosette in found for ring in rosette.rings])
+    fewest[ringed], deep[ringed] = SURE, SURELY_DEEP
     for rosette in found:
         away = np.hypot(*(marks.places - rosette.centre).T)
         fewest[(away <= 0.1 * marks.sizes) & (HEART * marks.sizes < rosette.reach)] = MOST
@@ -61,7 +62,9 @@ def taken_apart(marks: Marks, found: Sequence[Rosette]) -> Marks:
     inks: list[int] = []
     whole = np.ones(len(marks), bool)
     for number in np.flatnonzero(hollow).tolist():
-        pieces = _parts(marks.outlines[number], marks.places[number], int(fewest[number]))
+        pieces = _parts(
+            marks.outlines[number], marks.places[number], int(fewest[number]), float(deep[number])
+        )
         if pieces:
             whole[number] = False
             parts += pieces
@@ -71,17 +74,18 @@ def taken_apart(marks: Marks, found: Sequence[Rosette]) -> Marks:
     return joined_with(marks[whole], measured(np.array(parts, dtype=object), np.array(inks, np.intp)))
 
 
-def _parts(outline: BaseGeometry, centre: Place, fewest: int) -> list[BaseGeometry]:
+def _parts(outline: BaseGeometry, centre: Place, fewest: int, deep: float) -> list[BaseGeometry]:
     """Return the lobes of an outline about a point and the heart between them, or nothing."""
     ring = shapely.get_coordinates(outline)
     away = np.hypot(*(ring - centre).T)
     radii = np.linspace(away.min(), away.max(), RADII + 2)[1:-1]
+    step = float(radii[1] - radii[0])
     beyond = away[:-1, None] > radii
     lobes = (beyond & ~np.roll(beyond, 1, axis=0)).sum(axis=0)
     # The run of circles with the most lobes, weighed with how deep they reach.
     cuts = np.concatenate([[0], np.flatnonzero(np.diff(lobes)) + 1, [RADII]])
     runs = [(int(lobes[a]) * float(b - a), int(a), int(b)) for a, b in pairwise(cuts)]
-    runs = [run for run in runs if lobes[run[1]] >= fewest and (run[2] - run[1]) / RADII >= DEEP]
+    runs = [run for run in runs if lobes[run[1]] >= fewest and (run[2] - run[1]) * step >= deep * away.max()]
     if not runs or not shapely.contains_xy(outline, *centre):
         return []
     radius = float(radii[max(runs)[1]])

@@ -49,27 +49,16 @@ class Layer:
     outer: float
 
 
-@frozen
-class Analysis:
-    """What was measured of a drawing, from its geometry alone.
+@frozen(kw_only=True)
+class Features:
+    """The features of a flower, or of a drawing that holds none.
 
-    ``judged`` is False where the drawing holds no flower; ``reason`` then says why, with what was found.
-    ``marks`` and ``kinds`` count what is drawn on the page and how many shapes there are; ``flowers`` those
-    like the one that is told of, which stands about ``centre`` (mm, y up) and reaches ``reach`` mm.
     ``elements`` is the number of types among what is repeated; a single heart in the middle is none of them.
     ``relation`` says how like elements lie to one another. ``layers`` go from the outermost inwards,
-    ``pistils`` are the numbers of them that petals have, in the layers that have any.
-
-    ``coverage`` is the share of the page under ink, ``coverages`` that of each ink. ``line_widths`` are the
-    least and the greatest, in mm, None without lines. ``dimension`` is the box dimension of all outlines and
-    lines.
+    ``pistils`` are the numbers of them that petals have, in the layers that have any. The flower stands about
+    ``centre`` (mm, y up) and reaches ``reach`` mm; ``flowers`` counts those that are like it, itself too.
     """
 
-    title: str
-    judged: bool
-    reason: str
-    marks: int
-    kinds: int
     elements: int
     relation: str
     symmetry: Symmetry
@@ -78,12 +67,6 @@ class Analysis:
     flowers: int = 0
     centre: tuple[float, float] | None = None
     reach: float | None = None
-    coverage: float = 0.0
-    coverages: Mapping[str, float] = field(default_factory=dict)
-    line_widths: tuple[float, float] | None = None
-    nodes: int = 0
-    dimension: BoxDimension | None = None
-    notes: tuple[str, ...] = ()
 
     @property
     def row(self) -> dict[str, str]:
@@ -107,14 +90,8 @@ class Analysis:
 
     def as_dict(self) -> dict[str, Any]:
         """Return all of it as plain values."""
-        fit = self.dimension
         return {
-            "title": self.title,
-            "judged": self.judged,
-            "reason": self.reason,
             "row": self.row,
-            "marks": self.marks,
-            "kinds": self.kinds,
             "elements": self.elements,
             "relation": self.relation,
             "symmetry": {
@@ -132,6 +109,46 @@ class Analysis:
             "flowers": self.flowers,
             "centre_mm": None if self.centre is None else [round(value, 3) for value in self.centre],
             "reach_mm": None if self.reach is None else round(self.reach, 3),
+        }
+
+
+@frozen(kw_only=True)
+class Analysis(Features):
+    """What was measured of a drawing, from geometry alone: the features of its largest flower, and figures.
+
+    ``judged`` is False where the drawing holds no flower; ``reason`` then says why, with what was found.
+    ``marks`` and ``kinds`` count what is drawn on the page and how many shapes there are. ``others`` are
+    flowers of other kinds beside the largest.
+
+    ``coverage`` is the share of the page under ink, ``coverages`` that of each ink. ``line_widths`` are the
+    least and the greatest, in mm, None without lines. ``dimension`` is the box dimension of all outlines and
+    lines.
+    """
+
+    title: str
+    judged: bool
+    reason: str
+    marks: int
+    kinds: int
+    others: tuple[Features, ...] = ()
+    coverage: float = 0.0
+    coverages: Mapping[str, float] = field(default_factory=dict)
+    line_widths: tuple[float, float] | None = None
+    nodes: int = 0
+    dimension: BoxDimension | None = None
+    notes: tuple[str, ...] = ()
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return all of it as plain values."""
+        fit = self.dimension
+        return {
+            "title": self.title,
+            "judged": self.judged,
+            "reason": self.reason,
+            "marks": self.marks,
+            "kinds": self.kinds,
+            **Features.as_dict(self),
+            "others": [each.as_dict() for each in self.others],
             "covers": round(self.coverage, 6),
             "inks": {name: round(share, 6) for name, share in self.coverages.items()},
             "line_widths_mm": None

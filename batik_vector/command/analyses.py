@@ -69,14 +69,26 @@ def told(facts: dict[str, Any]) -> Iterator[str]:
 
 
 def _flower(facts: dict[str, Any]) -> Iterator[str]:
-    group = facts["symmetry"]
-    turns = f"{group['group']}, {group['kind']}" if group["kind"] != "none" else f"{group['group']}, none"
-    yield f"  {facts['marks']:,} marks of {facts['kinds']:,} shapes; symmetry {turns}"
-    if facts["centre_mm"] is None:
-        return
+    yield f"  {facts['marks']:,} marks of {facts['kinds']:,} shapes; symmetry {_group(facts)}"
+    if facts["centre_mm"] is not None:
+        yield f"  flower {_place(facts)}"
+        yield from _layers(facts)
+    for other in facts["others"]:
+        yield f"  another {_place(other)}: {', '.join(other['row'].values())}; {_group(other)}"
+        yield from _layers(other)
+
+
+def _group(facts: dict[str, Any]) -> str:
+    return f"{facts['symmetry']['group']}, {facts['symmetry']['kind']}"
+
+
+def _place(facts: dict[str, Any]) -> str:
     x, y = (format_mm(round(value, 2)) for value in facts["centre_mm"])
     alike = f", one of {facts['flowers']:,} alike" if facts["flowers"] > 1 else ""
-    yield f"  flower about {x}, {y} mm with a radius of {format_mm(round(facts['reach_mm'], 2))} mm{alike}"
+    return f"about {x}, {y} mm with a radius of {format_mm(round(facts['reach_mm'], 2))} mm{alike}"
+
+
+def _layers(facts: dict[str, Any]) -> Iterator[str]:
     for layer in facts["layers"]:
         shapes = " and ".join(layer["shapes"])
         yield f"    {layer['petals']} {shapes} petals that reach {format_mm(round(layer['outer_mm'], 2))} mm"

@@ -145,3 +145,14 @@ def test_plain_values_hold_all_of_it() -> None:
     assert facts["layers"] == [{"petals": 6, "shapes": ["curved"], "outer_mm": pytest.approx(40, abs=0.05)}]
     assert facts["symmetry"]["group"] == "D6"
     assert set(facts["box_dimension"]) == {"dimension", "from_mm", "to_mm", "residual", "sizes"}
+
+
+def test_what_the_papers_users_made_has_their_rows() -> None:
+    (mirrored, turned) = (compile_recipe(load_recipe(SAMPLES / f"figure-16{each}.toml")) for each in "ab")
+    assert str(analyse(bare_svg(mirrored))) == "2, rotation, 1/8, multi, curved, 10 or more, none"
+    found = analyse(bare_svg(turned))
+    assert [str(each) for each in found.others] == [
+        "2, rotation, 1/5, single, curved, 5, 2",
+        "multi, rotation, 1/5, double, curved and wavy, 5, none",
+    ]
+    assert [each.flowers for each in found.others] == [4, 4]
