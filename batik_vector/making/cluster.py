@@ -129,7 +129,7 @@ def _threads(client: Any, scheduler: str) -> int:
             raise ExportError(
                 f"--scheduler {scheduler}: {worker} has version {found}, expected {__version__}"
             )
-    return max(1, sum(client.nthreads().values()))
+    return max(1, sum(int(count) for count in client.nthreads().values()))
 
 
 def version() -> str:
