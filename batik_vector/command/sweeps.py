@@ -123,6 +123,9 @@ def _shared(folder: str) -> Callable[[Command], Command]:
     help="A key and its values: a,b,c or START:STOP:COUNT, with :log behind it evenly in ratios. "
     "START:STOP, for --random, is any value between.",
 )
+@click.option(
+    "--palettes", metavar="NAME,…|all", help="Also vary the colours: kelengan, sogan, tiga-negeri, …"
+)
 @click.option("--random", "sample", type=click.IntRange(1), metavar="N", help="A sample of N, spread evenly.")
 @click.option("--seed", type=click.IntRange(0), default=0, metavar="N", help="Which sample.  [default: 0]")
 @_shared("NAME-sweep")
@@ -130,6 +133,7 @@ def _shared(folder: str) -> Callable[[Command], Command]:
 @click.option("--dry-run", is_flag=True, help="Say what would be made, and make nothing.")
 def sweep_command(
     vary: Sequence[str],
+    palettes: str | None,
     sample: int | None,
     seed: int,
     limit: int | None,
@@ -148,9 +152,15 @@ def sweep_command(
         from batik_vector.making.variants import MOST, parse_axis, short_names, variants
         from batik_vector.recipe.reading.sources import stem_of
 
+        making = wishes.making("sweep")
         axes = [parse_axis(text) for text in vary]
+        if palettes:
+            from batik_vector.making.palettes import palette_axis
+
+            names = [name.strip() for name in palettes.split(",") if name.strip()]
+            axes.append(palette_axis(making.base(), names))
         found = variants(axes, stem_of(wishes.recipe), sample=sample or 0, seed=seed, most=limit or MOST)
-        planned = planned_sweep(wishes.making("sweep"), tuple(found))
+        planned = planned_sweep(making, tuple(found))
         if dry_run:
             _tell_plan(planned)
             return
@@ -159,8 +169,8 @@ def sweep_command(
         about = f"{len(planned.variants):,} variants of {', '.join(axis.key for axis in axes)}"
 
         def caption(variant: Variant) -> tuple[str, ...]:
-            values = [change.partition("=")[2] for change in variant.changes]
-            return tuple(f"{name} {value}" for name, value in zip(names, values, strict=True))[:MOST_CAPTIONS]
+            told = zip(names, variant.values, strict=True)
+            return tuple(f"{name} {value}" for name, value in told)[:MOST_CAPTIONS]
 
         _make(planned, wishes, report, caption, about, columns)
 

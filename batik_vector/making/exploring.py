@@ -30,7 +30,6 @@ from batik_vector.making.pool import outcomes
 from batik_vector.making.promised import asked_group
 from batik_vector.making.sweeping import Making
 from batik_vector.making.variants import Variant
-from batik_vector.recipe.loading import read_recipe
 from batik_vector.recipe.model import Recipe
 from batik_vector.recipe.reading.field_types import Hint, chosen, members, taken_apart
 from batik_vector.recipe.reading.sources import stem_of
@@ -271,5 +270,4 @@ def explored(
 
 def numbers_of(making: Making, locked: Sequence[str] = (), only: Sequence[str] = ()) -> list[Knob]:
     """Return the numbers of the recipe that a making is of; see :func:`knobs`."""
-    recipe = read_recipe(making.text, making.source, making.overrides, making.recipe_folder)
-    return knobs(tomllib.loads(recipe.source), locked, only)
+    return knobs(tomllib.loads(making.base().source), locked, only)

@@ -80,6 +80,14 @@ class Making:
         files = tuple((path.name, _digest(path)) for path, _ in job.files)
         return Made(variant, files, report, pictures[0] if pictures else None)
 
+    def base(self) -> Recipe:
+        """Return the recipe without what is varied.
+
+        Raises:
+            RecipeError: where it is wrong.
+        """
+        return read_recipe(self.text, self.source, self.overrides, self.recipe_folder)
+
     def recipe(self, variant: Variant) -> Recipe:
         """Return the recipe of a variant.
 
@@ -283,7 +291,7 @@ def planned_sweep(making: Making, variants: Sequence[Variant]) -> Sweep:
         ExportError: where the folder cannot be written to.
     """
     check_folder(Path(making.folder))
-    recipe = read_recipe(making.text, making.source, making.overrides, making.recipe_folder)
+    recipe = making.base()
     ends = dict.fromkeys((variants[0], variants[-1]))
     faults = [fault for variant in ends for fault in _faults(making, variant)]
     if faults:

@@ -40,6 +40,12 @@ class Axis:
     bounds: tuple[float, float] = (0.0, 0.0)
     unit: str = ""
     whole: bool = False
+    changes: tuple[tuple[str, ...], ...] = ()
+    """What each value sets, where that is more than the key."""
+
+    def sets(self, value: str) -> tuple[str, ...]:
+        """Return what a value sets in the recipe, as ``KEY=VALUE``."""
+        return self.changes[self.values.index(value)] if self.changes else (f"{self.key}={value}",)
 
     def at(self, share: float) -> str:
         """Return the value a share of the way along, in [0, 1)."""
@@ -55,11 +61,15 @@ class Axis:
 
 @frozen
 class Variant:
-    """One of the variants: its number from 0, its name, and what is set in the recipe, as ``KEY=VALUE``."""
+    """One of the variants: its number from 0, its name, and what is set in the recipe, as ``KEY=VALUE``.
+
+    ``values`` are those of the axes, in their order.
+    """
 
     number: int
     name: str
     changes: tuple[str, ...]
+    values: tuple[str, ...] = ()
 
 
 def parse_axis(text: str) -> Axis:
@@ -173,9 +183,8 @@ def _named(
         if len(name.encode()) > LONGEST or name.lower() in taken:
             name = f"{stem}_{number:0{width}}"
         taken.add(name.lower())
-        yield Variant(
-            number, name, tuple(f"{axis.key}={value}" for axis, value in zip(axes, values, strict=True))
-        )
+        changes = [change for axis, value in zip(axes, values, strict=True) for change in axis.sets(value)]
+        yield Variant(number, name, tuple(changes), values)
 
 
 def short_names(keys: Sequence[str]) -> list[str]:
