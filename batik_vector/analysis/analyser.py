@@ -129,7 +129,7 @@ def _flowers(marks: Marks) -> tuple[Indices | None, list[tuple[Flower, int]], st
         return None, [], f"{len(marks):,} marks are a tracing, expected at most {MOST_MARKS:,}"
     kinds = kinds_of(marks, MOST_KINDS)
     found = [] if kinds is None else rosettes(marks, kinds)
-    apart = taken_apart(marks, found)
+    whole, apart = kinds, taken_apart(marks, found)
     if kinds is not None and apart is not marks:
         marks = apart
         kinds = kinds_of(marks, MOST_KINDS)
@@ -151,7 +151,8 @@ def _flowers(marks: Marks) -> tuple[Indices | None, list[tuple[Flower, int]], st
     counts = (
         f"{len(marks):,} mark{'s' if len(marks) > 1 else ''} of {shapes:,} shape{'s' if shapes > 1 else ''}"
     )
-    return kinds, [], f"{counts}, and no three alike that stand round a point as petals do"
+    # What was taken apart in vain is told of as it was drawn.
+    return whole, [], f"{counts}, and no three alike that stand round a point as petals do"
 
 
 def _beside(flower: Flower, other: Flower) -> bool:

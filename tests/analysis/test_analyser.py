@@ -103,6 +103,12 @@ def test_leaves_in_rows_are_shifted_and_no_flower() -> None:
     assert str(found) == "1, translation, 1/2, none, none, none, none"
 
 
+def test_what_is_taken_apart_in_vain_is_told_of_as_it_was_drawn() -> None:
+    found = analyse(compile_recipe(load_recipe(SAMPLES / "group-pm.toml")))
+    assert not found.judged
+    assert 0 < found.elements <= found.kinds <= found.marks
+
+
 def test_a_single_mark_and_an_empty_page_are_not_judged() -> None:
     disc = analyse(square(areas(shapely.Point(50, 50).buffer(20, quad_segs=64))))
     assert not disc.judged
