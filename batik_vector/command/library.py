@@ -70,7 +70,7 @@ def list_command(
     "--where",
     default="",
     metavar="CONDITIONS",
-    help='On features: "inks <= 3, coverage 20..40, repeat = p4m".',
+    help='On features: "petals = 8, shape = wavy, coverage 20..40".',
 )
 @click.option("--like", metavar="NAME|RECIPE", help="The nearest to it first.")
 @_own

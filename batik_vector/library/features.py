@@ -25,8 +25,8 @@ class Feature:
     """One thing that is measured.
 
     ``unit`` is the difference that counts as 1 in likeness, on a scale of factors of two where ``by_factor``.
-    Without a unit it is no part of likeness. ``words`` are all values of a feature in words, ``kind`` is int,
-    float or str.
+    Without a unit it is no part of likeness. ``kind`` is int, float or str. ``words`` are all that a feature
+    in words may hold, of which one pattern may have several: "curved and wavy".
     """
 
     says: str
@@ -36,28 +36,44 @@ class Feature:
     words: tuple[str, ...] = ()
 
 
+RELATIONS = ("none", "rotation", "translation")
 FEATURES: Mapping[str, Feature] = {
-    "width": Feature("width of the tile, or of a cloth without one, mm", float, 1.0, True),
-    "height": Feature("height of it, mm", float, 1.0, True),
+    "width": Feature("width of the tile, or of a cloth without one, mm", float, 2.0, True),
+    "height": Feature("height of it, mm", float, 2.0, True),
     "inks": Feature("inks that draw something", int, 1.0),
     "coverage": Feature("ink on the tile, per cent of it", float, 15.0),
     "vertices": Feature("vertices of the tile", int, 1.5, True),
     "marks": Feature("areas and lines on the tile", int, 1.5, True),
     "motifs": Feature("motifs that are placed", int, 1.0),
     "repeat": Feature("how the tile repeats: grid, half-drop, p4m, …", str, 1.0),
+    "elements": Feature("kinds of elements that are repeated", int, 1.0),
+    "relation": Feature("how like elements lie to one another", str, 1.0, words=RELATIONS),
+    "symmetry": Feature("order of the flower's symmetry: turns of 360° / order keep it", int, 2.0),
+    "kind": Feature("kind of its symmetry", str, 1.0, words=("none", "rotation", "reflection")),
+    "layers": Feature("layers of petals", int, 1.0),
+    "shape": Feature("shape of the petals", str, 1.0, words=("rhombus", "curved", "wavy")),
+    "petals": Feature("petals of the outermost layer", int, 2.0),
+    "pistils": Feature("pistils that a petal has at most", float, 1.0),
+    "flowers": Feature("flowers on the tile like the one that is told of", int, 2.0, True),
+    "dimension": Feature("box dimension of all outlines and lines", float, 0.2),
+    "thinnest": Feature("least breadth of a line, mm", float),
+    "thickest": Feature("greatest breadth of a line, mm", float),
+    "nodes": Feature("nodes of the paths", int),
+    "row": Feature('the row of the paper\'s Table 2: "2, rotation, 1/8, single, curved, 8, 1"', str),
 }
-"""What is measured of a pattern, by name."""
+"""What is measured of a pattern, by name; from ``elements`` on by :func:`batik_vector.analyse`."""
 
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?"
 _RANGE = re.compile(rf"\s*([A-Za-z_-]+)\s*(?:=|\s|\bin\b)\s*({_NUMBER})\s*\.\.\s*({_NUMBER})\s*")
 _COMPARED = re.compile(r"\s*([A-Za-z_-]+)\s*(<=|>=|!=|==|=|<|>|≤|≥|≠)\s*(\"[^\"]*\"|'[^']*'|[^<>=!]+?)\s*")
+_AND = re.compile(r"\s+and\s+(?=[A-Za-z_-]+\s*(?:[<>=!≤≥≠.+\d-]|in\b))", re.IGNORECASE)
 _SAME = {"==": "=", "≤": "<=", "≥": ">=", "≠": "!="}
-EXAMPLE = "inks <= 3, coverage 20..40, repeat = half-drop"
+EXAMPLE = "petals = 8, shape = wavy, inks <= 3, coverage 20..40"
 MOST_CONDITIONS = 50
 
 
 def coordinates(measured: Mapping[str, Value]) -> dict[str, float | None]:
-    """Return the numbers among features, each on the scale on which 1 catches the eye."""
+    """Return the numbers among features that are compared; those compared by factors as logarithms to 2."""
     found: dict[str, float | None] = {}
     for name, feature in FEATURES.items():
         if feature.kind is str or not feature.unit:
@@ -66,9 +82,9 @@ def coordinates(measured: Mapping[str, Value]) -> dict[str, float | None]:
         if value is None or isinstance(value, str):
             found[name] = None
         elif feature.by_factor:
-            found[name] = math.log2(max(float(value), 1e-3)) / feature.unit
+            found[name] = math.log2(max(float(value), 1e-3))
         else:
-            found[name] = float(value) / feature.unit
+            found[name] = float(value)
     return found
 
 
@@ -91,9 +107,9 @@ def condition(text: str) -> tuple[str, list[Value]]:
 
 
 def _parts(text: str) -> Iterator[str]:
-    """Yield what stands between commas, but for those in quotes, and between the words "and"."""
+    """Yield what stands between commas, but for those in quotes, and what follows "and" as a condition."""
     for quoted in re.findall(r"(?:\"[^\"]*\"|'[^']*'|[^,])+", text):
-        yield from re.split(r"\s+and\s+", quoted, flags=re.IGNORECASE)
+        yield from _AND.split(quoted)
 
 
 def _condition(part: str) -> tuple[str, list[Value]]:
@@ -131,10 +147,13 @@ def _worded(name: str, how: str, value: str, part: str) -> tuple[str, list[Value
             f'"{part.strip()}": {name} is a word: expected {name} = {value}, or {name} != {value}'
         )
     words = FEATURES[name].words
-    if words and value.lower() not in words:
+    if words and not set(value.lower().split(" and ")) <= {*words}:
         near = get_close_matches(value.lower(), words, n=1, cutoff=0.5)
         hint = f'did you mean "{near[0]}"?' if near else f"expected one of {', '.join(words)}"
         raise LibraryError(f'"{part.strip()[:60]}": no {name} is called "{value[:40]}": {hint}')
+    if words:
+        has = f"instr(' ' || m.{name} || ' ', ?)"
+        return f"{has} {'>' if how == '=' else '='} 0", [f" {value.lower()} "]
     return f"m.{name} {how} ? COLLATE NOCASE", [value]
 
 
@@ -176,7 +195,8 @@ def distance(reference: Mapping[str, Value]) -> tuple[str, list[Value]]:
             parts.append(f"coalesce(m.{name} != ?, 1)")
             values.append(value)
         else:
-            parts.append(f"coalesce((c.{name} - ?) * (c.{name} - ?), 1.0)")
+            apart = f"(c.{name} - ?) / {float(feature.unit)!r}"
+            parts.append(f"coalesce({apart} * {apart}, 1.0)")
             values += [value, value]
     if not parts:
         raise LibraryError("nothing of it was measured, and so nothing can be found to be like it")

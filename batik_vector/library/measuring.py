@@ -17,6 +17,7 @@ from batik_vector import (
     PngOptions,
     Profile,
     SvgOptions,
+    analyse,
     compile_cloth,
     compile_recipe,
     read_recipe,
@@ -73,20 +74,35 @@ _PICTURE = SvgOptions(profile=Profile.COMPACT)
 
 
 def _of_tile(tile: Artwork, recipe: Recipe) -> dict[str, Any]:
-    import shapely
-
-    inked = sum(float(shapely.area(layer.areas).sum()) for layer in tile.layers)
-    drawn = sum(float(shapely.length(layer.lines).sum()) * layer.ink.width for layer in tile.layers)
-    cell = tile.cell
-    return {
-        "width": cell.width,
-        "height": cell.height,
+    found = analyse(tile)
+    features: dict[str, Any] = {
+        "width": tile.cell.width,
+        "height": tile.cell.height,
         "inks": len(tile.layers),
-        "coverage": round(min(100.0, 100 * (inked + drawn) / (cell.width * cell.height)), 2),
+        "coverage": round(100 * found.coverage, 2),
         "vertices": tile.vertex_count,
-        "marks": sum(len(layer.areas) + len(layer.lines) for layer in tile.layers),
+        "marks": found.marks,
         "repeat": recipe.tiling.repeat,
+        "elements": found.elements,
+        "relation": found.relation,
+        "symmetry": found.symmetry.order,
+        "kind": found.symmetry.kind,
+        "nodes": found.nodes,
+        "row": str(found),
     }
+    if found.judged:
+        features |= {
+            "layers": len(found.layers),
+            "shape": found.row["petal"],
+            "petals": max(found.layers, key=lambda layer: layer.outer).petals if found.layers else 0,
+            "pistils": round(max(found.pistils, default=0.0), 4),
+            "flowers": found.flowers,
+        }
+    if found.dimension is not None:
+        features["dimension"] = round(found.dimension.dimension, 4)
+    if found.line_widths is not None:
+        features |= dict(zip(("thinnest", "thickest"), (round(x, 4) for x in found.line_widths), strict=True))
+    return features
 
 
 def _motifs(recipe: Recipe) -> int:

@@ -326,7 +326,8 @@ def unmeasured(connection: Connection) -> list[str]:
     """Return the names of patterns whose newest version lacks features that are measured today."""
     asked = (
         "SELECT p.name FROM patterns p JOIN measures m ON m.version = p.head "
-        "WHERE p.removed IS NULL AND m.width IS NULL ORDER BY p.key"
+        "WHERE p.removed IS NULL AND (m.width IS NULL OR m.nodes IS NULL AND m.repeat IS NOT NULL) "
+        "ORDER BY p.key"
     )
     return [row[0] for row in connection.execute(asked)]
 

@@ -91,8 +91,35 @@ CREATE VIRTUAL TABLE words USING fts5 (text, tokenize = 'trigram case_sensitive 
 newest version; ``measures`` and ``coordinates`` are the features that are searched, raw and on the scales of
 likeness; ``details`` is all that was measured as JSON, and the pictures, the SVG's packed by zlib."""
 
+_ANALYSED = """
+ALTER TABLE measures ADD COLUMN elements INTEGER;
+ALTER TABLE measures ADD COLUMN relation TEXT;
+ALTER TABLE measures ADD COLUMN symmetry INTEGER;
+ALTER TABLE measures ADD COLUMN kind TEXT;
+ALTER TABLE measures ADD COLUMN layers INTEGER;
+ALTER TABLE measures ADD COLUMN shape TEXT;
+ALTER TABLE measures ADD COLUMN petals INTEGER;
+ALTER TABLE measures ADD COLUMN pistils REAL;
+ALTER TABLE measures ADD COLUMN flowers INTEGER;
+ALTER TABLE measures ADD COLUMN dimension REAL;
+ALTER TABLE measures ADD COLUMN thinnest REAL;
+ALTER TABLE measures ADD COLUMN thickest REAL;
+ALTER TABLE measures ADD COLUMN nodes INTEGER;
+ALTER TABLE measures ADD COLUMN "row" TEXT;
+ALTER TABLE coordinates ADD COLUMN elements REAL;
+ALTER TABLE coordinates ADD COLUMN symmetry REAL;
+ALTER TABLE coordinates ADD COLUMN layers REAL;
+ALTER TABLE coordinates ADD COLUMN petals REAL;
+ALTER TABLE coordinates ADD COLUMN pistils REAL;
+ALTER TABLE coordinates ADD COLUMN flowers REAL;
+ALTER TABLE coordinates ADD COLUMN dimension REAL;
+UPDATE coordinates SET coverage = coverage * 15, vertices = vertices * 1.5, marks = marks * 1.5;
+"""
+"""The features of the analyser, in columns. Coordinates are no longer divided by the unit that catches the
+eye, which may then change without another schema."""
+
 Step = str | Callable[[sqlite3.Connection], None]
-MIGRATIONS: Sequence[Step] = (_FIRST,)
+MIGRATIONS: Sequence[Step] = (_FIRST, _ANALYSED)
 """The step from each version of the schema to the next, that from an empty file first."""
 SCHEMA = len(MIGRATIONS)
 """The version of the schema that this program reads and writes."""
@@ -222,7 +249,7 @@ def _migrate(connection: sqlite3.Connection, path: Path) -> None:
             if callable(step):
                 step(connection)
             else:
-                for statement in step.split(";\n"):
+                for statement in filter(str.strip, step.split(";\n")):
                     connection.execute(statement)
         connection.execute(f"PRAGMA application_id = {APPLICATION}")
         connection.execute(f"PRAGMA user_version = {SCHEMA}")
