@@ -113,7 +113,7 @@ class Asked:
 def rows(results: Results, plan: Plan, said: str = "") -> list[Row]:
     """Return the rows of the acceptance list; ``said`` is what the page says by hand."""
     asked = Asked(results)
-    parts = (_svg, _dxf, _pdf, _three, _growth, _start, _slider, _motif, _library)
+    parts = (_svg, _dxf, _pdf, _three, _growth, _start, _slider, _motif, _library, _sweep)
     return [*(row for part in parts for row in part(asked, plan)), _explained(results, said)]
 
 
@@ -253,3 +253,10 @@ def _library(asked: Asked, plan: Plan) -> Iterator[Row]:
     for name, words in (("search", "text and features"), ("like", "likeness")):
         words = f"`batik-vector library search` in them by {words} < 200 ms of CPU"
         yield asked.below(10, words, f"library command/{name}", 0.200)
+
+
+def _sweep(asked: Asked, plan: Plan) -> Iterator[Row]:
+    words = f"{plan.variants} variants of four-square in two processes ≥ 1.8× as fast as in one"
+    yield asked.faster(11, words, "sweep/1", "sweep/2", 1.8, "wall")
+    yield asked.faster(11, "and ≥ 8× as fast as a shell's loop", "sweep/loop", "sweep/2", 8, "wall")
+    yield asked.faster(11, "and ≥ 25× as fast as vsketch", "sweep/vsketch", "sweep/2", 25, "wall")

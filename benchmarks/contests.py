@@ -88,6 +88,8 @@ class Plan:
     """Lengths of cloth in metres."""
     patterns: int
     """Patterns in a library."""
+    variants: int
+    """Variants of a sweep."""
     rounds: int
     """How often everything runs."""
     starts: int
@@ -103,6 +105,7 @@ FULL = Plan(
     merged=160,
     cloth=(1, 3, 10),
     patterns=10_000,
+    variants=200,
     rounds=5,
     starts=11,
 )
@@ -115,6 +118,7 @@ QUICK = Plan(
     merged=30,
     cloth=(1,),
     patterns=200,
+    variants=20,
     rounds=2,
     starts=3,
 )
@@ -364,6 +368,17 @@ def library(plan: Plan) -> list[Contest]:
     return [Contest("library", (inside,), plan.rounds), Contest("library command", commands, plan.starts)]
 
 
+def sweep(plan: Plan) -> list[Contest]:
+    """Many variants of the sample."""
+    count = str(plan.variants)
+    ways = {"1": "`sweep -j 1`", "2": "`sweep -j 2`", "loop": "a shell's loop over `compile --set`"}
+    mine = [Entrant(way, says, own("sweeps", way, count, "{folder}")) for way, says in ways.items()]
+    peer = (str(PEERS / "python"), "-m", "benchmarks.peers.vsketch_sweep", count, "{folder}")
+    return [
+        Contest("sweep", (*mine, Entrant("vsketch", "vsketch, its curves alone", peer)), min(plan.rounds, 3))
+    ]
+
+
 def facts(section: str, plan: Plan) -> list[Fact]:
     """Return what is to be found out about the files of a section."""
     if section == "pdf":
@@ -398,6 +413,7 @@ SECTIONS: Mapping[str, Callable[[Plan], list[Contest]]] = MappingProxyType(
         "cloth": cloth,
         "motif": motif,
         "library": library,
+        "sweep": sweep,
     }
 )
 """The sections by name, in the order in which they run."""

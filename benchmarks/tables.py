@@ -28,6 +28,7 @@ TITLES: Mapping[str, str] = MappingProxyType(
         "cloth": "Metres of cloth",
         "motif": "A drawing of one's own",
         "library": "The library",
+        "sweep": "A sweep",
     }
 )
 
@@ -273,6 +274,22 @@ def library(contests: Sequence[Contest], results: Results) -> Iterator[str]:
     yield ""
 
 
+def sweep(contests: Sequence[Contest], results: Results) -> Iterator[str]:
+    """Yield what a sweep costs, and how much longer others take."""
+    (contest,) = contests
+    count = int(contest.entrants[0].command[-2])
+    body = []
+    for entrant in contest.entrants:
+        name = f"sweep/{entrant.name}"
+        found = results.of(name, "wall")
+        shown = results.missing.get(name) or cost(results, name, "wall")
+        ratio = results.ratio(name, "sweep/2", "wall")
+        each = NONE if found is None else seconds(found.median / count)
+        body.append((entrant.says, shown, cost(results, name), each, NONE if ratio is None else times(ratio)))
+    yield from table((f"{count:,} variants", "wall", "CPU", "wall of each", "ratio of wall"), body)
+    yield ""
+
+
 SHOWN: Mapping[str, Callable[[Sequence[Contest], Results], Iterator[str]]] = MappingProxyType(
     {
         **dict.fromkeys(("svg", "pdf", "dxf", "three"), races),
@@ -285,6 +302,7 @@ SHOWN: Mapping[str, Callable[[Sequence[Contest], Results], Iterator[str]]] = Map
         "cloth": cloth,
         "motif": motif,
         "library": library,
+        "sweep": sweep,
     }
 )
 
