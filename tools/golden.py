@@ -109,6 +109,7 @@ SECTIONS = {
     "ground": "Grounds that flow behind motifs",
     "toss": "Tossed",
     "lsystem": "Grown by L-systems",
+    "fractal": "Fractals, automata and other generators",
     "group": "The seventeen wallpaper groups",
     "border": "Borders and cloths: the seven friezes",
     "figure": "The paper's figures",

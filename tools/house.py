@@ -57,8 +57,9 @@ WINGS: dict[str, Floors] = {
     "geometry": _floors(
         "sampling outlines edge_snap",
         "known work paths",
-        "regions",
+        "regions nesting",
         "lsystems",
+        "generators",
         "ragged curves stretches inside",
         "bezier continuations maps",
         "coincidence",

@@ -133,6 +133,7 @@ def _curve(kind: str) -> Put:
         start: dict[str, Tables] = {
             "polar": {"waves": [[8, 0.1, 0.0]]},
             "lsystem": {"system": "koch-snowflake"},
+            "fractal": {"system": "vicsek"},
             "path": {"d": PATH},
             "points": {"points": [[0.0, 0.0], [1.0, 0.0], [0.5, 1.0]]},
             "parametric": {"x": [[1, 1.0, 20.0]], "y": [[2, 1.0, 0.0]]},

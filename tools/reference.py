@@ -24,7 +24,7 @@ from typing import Annotated, Any
 
 from batik_vector.artwork import Overlap
 from batik_vector.fields import HIDDEN, Between, LengthUnit, OneOf, Says, Several
-from batik_vector.geometry.curves import CURVES, Origin, YAxis
+from batik_vector.geometry.curves import CURVES, AttractorMap, FractalName, Origin, YAxis
 from batik_vector.geometry.maps import VARIATIONS
 from batik_vector.geometry.regions import FillRule
 from batik_vector.library.features import FEATURES
@@ -274,6 +274,8 @@ def page() -> str:
     lines += words("treatment", Treatment)
     lines += words("fill", FillRule)
     lines += catalogue("Curves", "`kind` of the `curve` of an element", CURVES)
+    lines += words("system (of a fractal)", FractalName)
+    lines += words("map (of an attractor)", AttractorMap)
     lines += catalogue("Layouts", "`kind` of the `layout` of a placement", LAYOUTS)
     lines += words("clear (of a toss)", Clear)
     lines += section("Spots of a free layout, and `pre` and `post` of a map", Spot)

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from batik_vector.geometry.curves.attractor import Attractor, AttractorMap
 from batik_vector.geometry.curves.base import Curve, FunctionCurve, OutlineCurve
 from batik_vector.geometry.curves.blade import Blade
 from batik_vector.geometry.curves.butterfly import Butterfly
+from batik_vector.geometry.curves.cells import Automaton, Kronecker
 from batik_vector.geometry.curves.circle import Circle
+from batik_vector.geometry.curves.escape import Julia, Mandelbrot
+from batik_vector.geometry.curves.fourier import Fourier
+from batik_vector.geometry.curves.fractal import Fractal, FractalName, ShapeGrammar
 from batik_vector.geometry.curves.harmonic import Parametric, Polar
 from batik_vector.geometry.curves.hypocycloid import Hypocycloid
 from batik_vector.geometry.curves.lsystem import LSystem, Origin
@@ -38,17 +43,34 @@ CURVES: dict[str, type[Curve]] = {
     "path": PathCurve,
     "points": PointsCurve,
     "lsystem": LSystem,
+    "fractal": Fractal,
+    "kronecker": Kronecker,
+    "automaton": Automaton,
+    "fourier": Fourier,
+    "attractor": Attractor,
+    "julia": Julia,
+    "mandelbrot": Mandelbrot,
+    "shape-grammar": ShapeGrammar,
 }
 
 __all__ = [
     "CURVES",
+    "Attractor",
+    "AttractorMap",
+    "Automaton",
     "Blade",
     "Butterfly",
     "Circle",
     "Curve",
+    "Fourier",
+    "Fractal",
+    "FractalName",
     "FunctionCurve",
     "Hypocycloid",
+    "Julia",
+    "Kronecker",
     "LSystem",
+    "Mandelbrot",
     "Origin",
     "OutlineCurve",
     "Parametric",
@@ -59,6 +81,7 @@ __all__ = [
     "Polygon",
     "Rose",
     "Segment",
+    "ShapeGrammar",
     "Spiral",
     "Star",
     "Superellipse",

@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 
 from batik_vector.geometry.lsystems.contours import around
 from batik_vector.geometry.lsystems.turtle import Complex
-from batik_vector.geometry.sampling import Array, Geometries, Indices
+from batik_vector.geometry.nesting import rings_of, with_holes
+from batik_vector.geometry.sampling import Geometries, Indices
 from batik_vector.values import frozen
 
 ON = 1e-6
@@ -149,7 +150,7 @@ class _Lattice:
         known[end * self.sides + (self.way + half) % self.sides] = start
         target = known[node * self.sides + way]
         behind = _next_way(self.sides)[left[target], (way + half) % self.sides]
-        order, sizes = _rings(number_of[target * self.sides + behind])
+        order, sizes = rings_of(number_of[target * self.sides + behind])
         corners = self.at(*place[target[order]].T)
         return corners, way[order], behind[order], sizes
 
@@ -173,7 +174,7 @@ class _Lattice:
         which = np.repeat(begin[kind] - before, mine) + np.arange(int(mine.sum()))
         outline = np.repeat(np.column_stack([corners.real, corners.imag]), mine, axis=0) + offset[which]
         ring = np.repeat(np.arange(len(sizes)), np.add.reduceat(mine, np.cumsum(sizes) - sizes))
-        return _with_holes(np.asarray(shapely.linearrings(outline, indices=ring), dtype=object))
+        return with_holes(np.asarray(shapely.linearrings(outline, indices=ring), dtype=object))
 
 
 def _next_way(sides: int) -> Whole:
@@ -184,44 +185,3 @@ def _next_way(sides: int) -> Whole:
             ways = ((way + turn) % sides for turn in range(1, sides + 1))
             table[left, way] = next((each for each in ways if left >> each & 1), way)
     return table
-
-
-def _rings(following: Whole) -> tuple[Indices, Indices]:
-    """Return all directed steps ring by ring, each ring from its least number on, and the size of each.
-
-    A list is followed step by step: NumPy would double pointers for the twenty rounds that a ring of a
-    million steps takes, each of them dearer than this loop's twentieth.
-    """
-    chain: list[int] = following.tolist()
-    left = bytearray(b"\1") * len(chain)
-    order: list[int] = []
-    begins: list[int] = []
-    at = left.find(1)
-    while at >= 0:
-        begins.append(len(order))
-        step = at
-        while left[step]:
-            left[step] = 0
-            order.append(step)
-            step = chain[step]
-        at = left.find(1, at)
-    return np.array(order, np.intp), np.diff(np.append(begins, len(order))).astype(np.intp)
-
-
-def _with_holes(rings: Geometries) -> Geometries:
-    """Return polygons of rings of which no two cross: shells run anticlockwise, holes clockwise."""
-    shells = shapely.is_ccw(rings)
-    exterior, inner = rings[shells], rings[~shells]
-    if len(exterior) == 1:
-        return np.array([shapely.polygons(exterior[0], inner if len(inner) else None)], dtype=object)
-    outer: Geometries = np.asarray(shapely.polygons(exterior), dtype=object)
-    spot = shapely.points(shapely.get_coordinates(shapely.get_point(inner, 0)))
-    hole, shell = shapely.STRtree(outer).query(spot, predicate="within")
-    area: Array = np.asarray(shapely.area(outer))
-    order = np.lexsort((area[shell], hole))
-    mine: list[list[int]] = [[] for _ in outer]
-    into = dict(zip(hole[order][::-1].tolist(), shell[order][::-1].tolist(), strict=True))
-    for number in sorted(into):
-        mine[into[number]].append(number)
-    found = [shapely.polygons(ring, inner[held]) for ring, held in zip(exterior, mine, strict=True)]
-    return np.array(found, dtype=object)
