@@ -8,18 +8,11 @@ from __future__ import annotations
 
 import importlib
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import replace
-from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any, TypeVar
 
 from batik_vector._version import __version__
 from batik_vector.errors import ExportError, Fault, MissingLibraryError
-from batik_vector.export.files import write_all_whole
 from batik_vector.making.pool import Failure, Outcome, tried
-from batik_vector.making.sweeping import Made, Making
-from batik_vector.making.variants import Variant
-from batik_vector.values import frozen
 
 Task = TypeVar("Task")
 Result = TypeVar("Result")
@@ -28,33 +21,6 @@ IN_FLIGHT = 3
 """Tasks on their way for each of the cluster's threads: none waits for work, and memory is bounded."""
 PATIENCE = 30
 """Seconds to wait for the scheduler, and for a first worker."""
-
-
-@frozen
-class Sent:
-    """A variant made elsewhere, with the bytes of its files."""
-
-    made: Made
-    files: tuple[tuple[str, bytes], ...]
-
-
-@frozen
-class Elsewhere:
-    """What makes a variant on another machine, where neither recipe nor drawings lie."""
-
-    making: Making
-
-    def __call__(self, variant: Variant) -> Sent:
-        """Make a variant's files in a folder that goes again, and return their bytes."""
-        with TemporaryDirectory(prefix="batik-vector-") as folder:
-            made = replace(self.making, folder=folder)(variant)
-            return Sent(made, tuple((name, (Path(folder) / name).read_bytes()) for name, _ in made.files))
-
-
-def written(making: Making, sent: Sent) -> Made:
-    """Write the files of a variant that came back, all of them or none."""
-    write_all_whole([(Path(making.folder) / name, data) for name, data in sent.files])
-    return sent.made
 
 
 def outcomes_on(

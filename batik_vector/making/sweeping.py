@@ -13,13 +13,14 @@ import os
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any, BinaryIO
 
 from batik_vector._version import __version__
 from batik_vector.artwork import Artwork, Page
 from batik_vector.compiling.compiler import compile_recipe
 from batik_vector.errors import BatikError, ExportError, RecipeError
-from batik_vector.export.files import write_whole
+from batik_vector.export.files import write_all_whole, write_whole
 from batik_vector.making.jobs import Job, check_folder, drawings_of, make_folder, planned, run
 from batik_vector.making.pool import Outcome, outcomes
 from batik_vector.making.thumbnails import Thumbnail, thumbnail
@@ -111,6 +112,33 @@ class Making:
 
 def _digest(path: Path) -> str:
     return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+@frozen
+class Sent:
+    """A variant made elsewhere, with the bytes of its files."""
+
+    made: Made
+    files: tuple[tuple[str, bytes], ...]
+
+
+@frozen
+class Elsewhere:
+    """What makes a variant on another machine, where neither recipe nor drawings lie."""
+
+    making: Making
+
+    def __call__(self, variant: Variant) -> Sent:
+        """Make a variant's files in a folder that goes again, and return their bytes."""
+        with TemporaryDirectory(prefix="batik-vector-") as folder:
+            made = replace(self.making, folder=folder)(variant)
+            return Sent(made, tuple((name, (Path(folder) / name).read_bytes()) for name, _ in made.files))
+
+
+def _written(making: Making, sent: Sent) -> Made:
+    """Write the files of a variant that came back, all of them or none."""
+    write_all_whole([(Path(making.folder) / name, data) for name, data in sent.files])
+    return sent.made
 
 
 class Manifest:
@@ -265,14 +293,14 @@ class Sweep:
         if not scheduler or not todo:
             yield from outcomes(self.making, todo, min(workers, len(todo)))
             return
-        from batik_vector.making.cluster import Elsewhere, outcomes_on, written
+        from batik_vector.making.cluster import outcomes_on
 
         # There the recipe carries the drawings that it names, for its folder is here.
         recipe = read_recipe(self.making.text, self.making.source, folder=self.making.recipe_folder)
         elsewhere = Elsewhere(replace(self.making, text=recipe.source, recipe_folder=None))
         for outcome in outcomes_on(scheduler, elsewhere, todo):
             sent = outcome.result
-            made = None if sent is None else written(self.making, sent)
+            made = None if sent is None else _written(self.making, sent)
             yield Outcome(outcome.task, made, outcome.failure)
 
     def pictures(self) -> Iterator[tuple[Variant, Thumbnail | None]]:
