@@ -30,8 +30,14 @@ from batik_vector.recipe.element import dressed
 from batik_vector.recipe.look import Dress as Dress
 from batik_vector.recipe.look import Treatment as Treatment
 from batik_vector.recipe.lsystem import Grown
+from batik_vector.recipe.motifs.bird import Bird
+from batik_vector.recipe.motifs.blossoms import Chrysanthemum, Sunflower
 from batik_vector.recipe.motifs.butterfly import ButterflyMotif, PolarButterfly
 from batik_vector.recipe.motifs.composing import Composed
+from batik_vector.recipe.motifs.fish import Fish
+from batik_vector.recipe.motifs.leaf import LeafMotif
+from batik_vector.recipe.motifs.upright import Cockscomb, Lotus, Peach
+from batik_vector.recipe.motifs.vine import Vine
 from batik_vector.values import frozen
 
 
@@ -225,6 +231,15 @@ MOTIFS: dict[str, type] = {
     "lsystem": Grown,
     "butterfly": ButterflyMotif,
     "polar-butterfly": PolarButterfly,
+    "fish": Fish,
+    "bird": Bird,
+    "chrysanthemum": Chrysanthemum,
+    "sunflower": Sunflower,
+    "lotus": Lotus,
+    "peach": Peach,
+    "cockscomb": Cockscomb,
+    "leaf": LeafMotif,
+    "vine": Vine,
 }
 """The catalogue of kinds: each has ``parts()``, and ``keys()`` that say where these stand in its table."""
 

@@ -29,9 +29,10 @@ def band(centre: Points, half: Array) -> Outline:
     inner = slice(1 if not half[0] else 0, -1 if not half[-1] else None)
     # From the left of the beginning round its end, up the right side, and back down the left.
     ring = np.concatenate([begin, right[inner], end, left[inner][::-1]])
-    corners = [0] if not half[0] else []
-    if not half[-1]:
-        corners.append(len(begin) + len(right[inner]))
+    # A point is a corner; so are both ends of a cap, for a spline through sides and cap would swing there.
+    first, last, total = len(begin), len(begin) + len(right[inner]), len(ring)
+    corners = [first, total - 1] if half[0] else [0]
+    corners += [last - 1, last + len(end)] if half[-1] else [last]
     return through(np.column_stack([ring.real, ring.imag]), True, True, corners)
 
 

@@ -10,11 +10,11 @@ from typing import Annotated, TypeAlias
 import numpy as np
 
 from batik_vector.fields import Between, Length, Says, check
-from batik_vector.geometry.curves import Curve, OutlineCurve
+from batik_vector.geometry.curves import Blade, Curve, OutlineCurve
 from batik_vector.geometry.maps.affine import unit_turn
 from batik_vector.geometry.paths.bands import band
 from batik_vector.geometry.paths.matrix import Matrix
-from batik_vector.geometry.paths.outline import Outline, joined
+from batik_vector.geometry.paths.outline import Outline, bounds_of, joined
 from batik_vector.geometry.paths.shapes import ellipse
 from batik_vector.geometry.paths.splines import through
 from batik_vector.geometry.sampling import Array, Points
@@ -129,3 +129,55 @@ def stroke(centre: Points, begin: float, end: float, swell: float = 0.0) -> Outl
     """Return a line with a body whose half breadth goes from one to another, ``swell`` more amidst."""
     share = np.linspace(0, 1, len(centre))
     return band(centre, begin + (end - begin) * share + 4 * swell * share * (1 - share))
+
+
+def direction(blade: Blade, share: float) -> float:
+    """Return the direction of a blade's midrib at a share of its length, in degrees."""
+    return blade.bend * share
+
+
+def on(blade: Blade, share: float | Array, side: float | Array) -> Points:
+    """Return places on a blade, ``side`` half breadths left of its midrib, shape (n, 2)."""
+    shares, sides = np.broadcast_arrays(np.asarray(share, float), np.asarray(side, float))
+    return blade.spread(np.atleast_1d(shares), np.atleast_1d(sides))
+
+
+def rib(blade: Blade, begin: float, end: float, half: float) -> Outline:
+    """Return a line along a blade's midrib, slim at its ends."""
+    return stroke(on(blade, np.linspace(begin, end, 7), 0.0), 0.4 * half, 0.4 * half, 0.6 * half)
+
+
+def fan(
+    roots: Points, angles: Array, lengths: Array, blade: Blade, ray: float, begin: float = 0.3
+) -> tuple[list[Outline], list[Outline]]:
+    """Return a fan of blades and a line in each of them.
+
+    Args:
+        roots: where they begin, shape (n, 2).
+        angles: where they point, in degrees, shape (n,).
+        lengths: how much larger than ``blade`` each of them is, shape (n,).
+        blade: the shape of all.
+        ray: half the breadth of their lines, as a share of theirs; 0 leaves the lines out.
+        begin: where these begin, as a share of the length.
+    """
+    shape = outline_of(blade)
+    line = rib(blade, begin, 0.82, ray * blade.width) if ray else None
+    places = [
+        similar(angle, scale, (x, y))
+        for (x, y), angle, scale in zip(roots.tolist(), angles.tolist(), lengths.tolist(), strict=True)
+    ]
+    return [shape.moved(f) for f in places], [line.moved(f) for f in places] if line else []
+
+
+def centred(found: Iterable[Keyed]) -> list[Keyed]:
+    """Return elements, drawn once where their outlines have them, with the middle of all in the origin."""
+    keyed = list(found)
+    outlines = [element.curve.outline() for _, element in keyed]
+    bounds = np.array([bounds_of(outline) for outline in outlines if outline is not None])
+    low, high = bounds[:, :2].min(axis=0), bounds[:, 2:].max(axis=0)
+    x, y = (-(low + high) / 2).tolist()
+    return [
+        (key, replace(element, curve=OutlineCurve(outline.moved(similar(0.0, 1.0, (x, y))))))
+        for (key, element), outline in zip(keyed, outlines, strict=True)
+        if outline is not None
+    ]
