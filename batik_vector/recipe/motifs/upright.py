@@ -260,11 +260,12 @@ class Cockscomb(Composed):
         comb, low = self.comb, self._low()
         if top < low + 0.1:
             return
-        for number in range(comb.folds):
-            place = (number + 0.5) / comb.folds * 2 - 1
-            line = np.column_stack([np.linspace(low + 0.5 * (top - low), top, 6), np.zeros(6)])
-            bent = similar((0.2 + 0.42 * top) * comb.spread * place)
-            yield stroke(line, 0.006, 0.006, 0.014).moved(bent)
+        begin, spread = low + 0.5 * (top - low), (0.2 + 0.42 * top) * comb.spread
+        line = np.column_stack([np.linspace(begin, top, 6), np.zeros(6)])
+        # As many as stand apart where they begin.
+        count = min(int(2 * math.radians(spread) * begin / PLUMES), comb.folds) // 2 * 2 + 1
+        for place in (np.arange(count) + 0.5 - 0.5 * count).tolist():
+            yield stroke(line, 0.006, 0.006, 0.014).moved(similar(2 * spread * place / count))
 
     def _foot(self, top: float) -> Points:
         low = self._low()
@@ -286,6 +287,8 @@ class Cockscomb(Composed):
             yield part("vein", self.vein, rib(blade, 0.1, 0.84, 0.013).moved(at), mirror=True, turn=UP)
 
 
+PLUMES = 0.058
+"""Distance of the lines in a comb from one another at their feet."""
 FOOT = 0.16
 """Where the sides of the comb come together, above its foot."""
 SWELL = 0.15
