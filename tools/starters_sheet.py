@@ -19,7 +19,7 @@ from batik_vector.tiling.cloth.yardage import Yardage
 
 SHEET = Path(__file__).resolve().parents[1] / "docs" / "starters.png"
 COLUMNS = 4
-FRAME = (222, 166)
+FRAME = (212, 158)
 """Pixels of a picture."""
 LABEL = 22
 GUTTER = 4
@@ -27,7 +27,7 @@ FINER = 2
 """Drawn so much larger first: cairo's edges are coarse."""
 SHOWN = 230.0
 """Millimetres of cloth across a picture, or two repeats where those are more."""
-COLOURS = 64
+COLOURS = 44
 
 
 def sheet() -> bytes:

@@ -35,7 +35,9 @@ if TYPE_CHECKING:
     from batik_vector.making.jobs import Job
 
 KINDS = (
+    "bird",
     "border",
+    "butterfly",
     "ceplok",
     "flower",
     "four-square",
@@ -46,6 +48,7 @@ KINDS = (
     "rosette",
     "toss",
     "truntum",
+    "vine",
     "wallpaper",
     "yardage",
 )

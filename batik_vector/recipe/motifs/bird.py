@@ -145,7 +145,7 @@ class Bird(Composed):
             feather = Blade(length, tail.width * tail.length, 1.6, 0.5, tail.bend * (0.55 + 0.45 * place))
             at = similar(tail.turn - 0.5 * tail.spread * place, 1.0, (float(root[0]), float(root[1])))
             yield part("tail", tail, outline_of(feather, 12).moved(at))
-            yield part("rib", self.rib, rib(feather, 0.14, 0.66, 0.1 * feather.width).moved(at))
+            yield part("rib", self.rib, rib(feather, 0.3, 0.68, 0.1 * feather.width).moved(at))
             (eye,) = on(feather, 0.83, 0.0).tolist()
             yield part(
                 "spot", self.spot, dot((eye[0], eye[1]), 0.58 * feather.width).moved(at), name="tail eye"

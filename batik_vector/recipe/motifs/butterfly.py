@@ -134,6 +134,7 @@ class ButterflyMotif(Composed):
     cell: Annotated[Isen, Says("look of the cells in the lobes: the fans of level 2")] = field(
         default_factory=Isen
     )
+    cell_size: Annotated[float, Between(0.1, 0.9), Says("breadth of a cell, as a share of its lobe's")] = 0.52
     isen: Annotated[Dress, Says("look of the fans of level 3 in the cells")] = field(default_factory=Dress)
     spot: Annotated[Isen, Says("look of the dots along the margin")] = field(default_factory=Isen)
     spot_size: Annotated[float, Between(0, 0.2), Says("radius of these dots; 0 leaves them out")] = 0.03
@@ -151,7 +152,8 @@ class ButterflyMotif(Composed):
         maps, curve = wing.maps(), wing.curve()
         yield part(key, wing, [curve.moved(f) for f in maps], mirror=True, turn=HEAD_UP)
         if self.level > 1:
-            cells = [times(f, CELL) for f in maps]
+            within: Matrix = (0.84 - CELL, 0.0, 0.0, self.cell_size, CELL, 0.0)
+            cells = [times(f, within) for f in maps]
             yield part("cell", self.cell, [curve.moved(f) for f in cells], mirror=True, turn=HEAD_UP)
         if self.level > 2:
             rays = [curve.moved(times(f, g)) for f in cells for g in _slim(wing, maps)]
@@ -164,8 +166,8 @@ class ButterflyMotif(Composed):
 NECK, POLAR_NECK = 0.34, 0.52
 """How far before the roots of the wings the neck is, as a share of the body's length. The polar curve has a
 lobe between its fore wings, which the body covers."""
-CELL: Matrix = (0.66, 0.0, 0.0, 0.6, 0.16, 0.0)
-"""The contraction that takes a lobe to the cell in it."""
+CELL = 0.24
+"""Where the cell in a lobe begins, as a share of its length: nearer to the root no line would be left."""
 MANY = 4
 """More lines than that in a cell no canting draws."""
 RAYS = 0.7
