@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import dataclasses
+import enum
 import io
 import math
 from collections.abc import Callable, Iterator
@@ -144,7 +145,7 @@ BY_HAND: dict[type, dict[str, Any]] = {
 def public_classes() -> list[type]:
     named = [getattr(batik_vector, name) for name in batik_vector.__all__]
     catalogues = (CURVES, VARIATIONS, LAYOUTS, OUTPUTS, MOTIFS)
-    found = [each for each in named if isinstance(each, type) and not issubclass(each, Exception)]
+    found = [each for each in named if isinstance(each, type) and not issubclass(each, Exception | enum.Enum)]
     found += [cls for catalogue in catalogues for cls in catalogue.values()]
     found += [kind.options for kind in FORMATS.values()]
     found += [
