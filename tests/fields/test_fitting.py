@@ -163,7 +163,13 @@ def public_classes() -> list[type]:
         Asked,
         Provenance,
     ]
-    results = (batik_vector.Certificate, batik_vector.Fault)  # made here, for others to read
+    # Made here, for others to read.
+    results = (
+        batik_vector.Analysis,
+        batik_vector.Certificate,
+        batik_vector.Fault,
+        batik_vector.Variation,
+    )
     return [cls for cls in dict.fromkeys(found) if cls not in results]
 
 
