@@ -212,6 +212,8 @@ UNUSED = (
     "batik_vector.recipe.reading.validator batik_vector.recipe.reading.lines",
     "batik_vector.recipe.reading.overrides batik_vector.recipe.schema",
     "batik_vector.recipe.reading.drawings batik_vector.importing.walk",
+    # Kinds of motifs that it has not.
+    "batik_vector.recipe.motifs.butterfly batik_vector.recipe.motifs.vine",
 )
 
 

@@ -8,7 +8,9 @@ of, bottom first, and all that follows (sampling, filling, laying out) is the sa
 from __future__ import annotations
 
 import functools
+from collections.abc import Iterator, Mapping
 from dataclasses import field
+from importlib import import_module
 from typing import Annotated, TypeAlias
 
 from batik_vector.errors import GeometryError, unknown_name
@@ -30,14 +32,7 @@ from batik_vector.recipe.element import dressed
 from batik_vector.recipe.look import Dress as Dress
 from batik_vector.recipe.look import Treatment as Treatment
 from batik_vector.recipe.lsystem import Grown
-from batik_vector.recipe.motifs.bird import Bird
-from batik_vector.recipe.motifs.blossoms import Chrysanthemum, Sunflower
-from batik_vector.recipe.motifs.butterfly import ButterflyMotif, PolarButterfly
 from batik_vector.recipe.motifs.composing import Composed
-from batik_vector.recipe.motifs.fish import Fish
-from batik_vector.recipe.motifs.leaf import LeafMotif
-from batik_vector.recipe.motifs.upright import Cockscomb, Lotus, Peach
-from batik_vector.recipe.motifs.vine import Vine
 from batik_vector.values import frozen
 
 
@@ -223,24 +218,46 @@ class PathMotif(Dress):
         return ("",)
 
 
-MOTIFS: dict[str, type] = {
-    "flower": Flower,
-    "rosette": Rosette,
-    "path": PathMotif,
-    "svg": Svg,
-    "lsystem": Grown,
-    "butterfly": ButterflyMotif,
-    "polar-butterfly": PolarButterfly,
-    "fish": Fish,
-    "bird": Bird,
-    "chrysanthemum": Chrysanthemum,
-    "sunflower": Sunflower,
-    "lotus": Lotus,
-    "peach": Peach,
-    "cockscomb": Cockscomb,
-    "leaf": LeafMotif,
-    "vine": Vine,
-}
+class Kinds(Mapping[str, type]):
+    """Kinds of motifs by name; one told as "file.Class" of the room ``motifs`` is imported when asked for."""
+
+    def __init__(self, homes: Mapping[str, type | str]) -> None:
+        self.homes = dict(homes)
+
+    def __getitem__(self, name: str) -> type:
+        home = self.homes[name]
+        if isinstance(home, str):
+            file, _, cls = home.partition(".")
+            home = self.homes[name] = getattr(import_module(f"batik_vector.recipe.motifs.{file}"), cls)
+        return home
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.homes)
+
+    def __len__(self) -> int:
+        return len(self.homes)
+
+
+MOTIFS: Mapping[str, type] = Kinds(
+    {
+        "flower": Flower,
+        "rosette": Rosette,
+        "path": PathMotif,
+        "svg": Svg,
+        "lsystem": Grown,
+        "butterfly": "butterfly.ButterflyMotif",
+        "polar-butterfly": "butterfly.PolarButterfly",
+        "fish": "fish.Fish",
+        "bird": "bird.Bird",
+        "chrysanthemum": "blossoms.Chrysanthemum",
+        "sunflower": "blossoms.Sunflower",
+        "lotus": "upright.Lotus",
+        "peach": "upright.Peach",
+        "cockscomb": "upright.Cockscomb",
+        "leaf": "leaf.LeafMotif",
+        "vine": "vine.Vine",
+    }
+)
 """The catalogue of kinds: each has ``parts()``, and ``keys()`` that say where these stand in its table."""
 
 Motif: TypeAlias = Flower | Rosette | PathMotif | Svg | Grown | Composed
