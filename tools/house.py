@@ -36,6 +36,7 @@ FLOORS: Floors = _floors(
     "fields",
     "geometry",
     "artwork",
+    "processes",
     "tiling export",
     "importing",
     "recipe certificate",

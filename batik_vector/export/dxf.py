@@ -2,8 +2,9 @@
 
 Only the dullest parts of the format are used, since those are what every cutter, CAM and CAD reads: no
 splines, hatches, blocks or comments. Areas and lines are both drawn as outlines and centre lines: DXF has
-no fill that all readers share. Everything around the entities comes from a skeleton kept as data (see
-:mod:`batik_vector.export.dxf_skeleton`); ezdxf is not needed to write.
+no fill that all readers share. Contours come in the order in which a tool should follow them, the inner
+before the outer (see :mod:`batik_vector.processes.order`). Everything around the entities comes from a
+skeleton kept as data (see :mod:`batik_vector.export.dxf_skeleton`); ezdxf is not needed to write.
 
 Recipe, seed and version stand in an XRECORD in the named-object dictionary (R2000), or in the extended
 data of the model-space block (R12, which has no dictionaries), where they must fit ``R12_PROVENANCE``
@@ -37,7 +38,7 @@ from batik_vector.export.numbers import (
 from batik_vector.export.options import DxfOptions, DxfVersion
 from batik_vector.export.palette import distinct_aci, dxf_names, r12_names
 from batik_vector.export.provenance import ascii_chunks
-from batik_vector.export.walk import Outlines, in_memory, walk
+from batik_vector.export.walk import Order, Outlines, in_memory, walk
 from batik_vector.units import STEPS_PER_MM
 
 R2000_SKELETON = "dxf_r2000.txt"
@@ -75,7 +76,7 @@ def write(page: Page, sink: BinaryIO, options: DxfOptions = DEFAULTS) -> None:
         ExportError: where the page holds what cannot be written.
     """
     surface = _R12Surface(sink) if options.version is DxfVersion.R12 else _DxfSurface(sink)
-    walk(page, surface)
+    walk(page, surface, Order.CONTOURS if options.order else Order.GIVEN)
 
 
 @functools.cache

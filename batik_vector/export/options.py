@@ -58,6 +58,7 @@ class SvgOptions:
         Says("how far fitted curves may stray; the artwork's tolerance if unset"),
     ] = None
     cloth: Annotated[bool, Says("show the cloth as a layer %99 cloth, which plotters skip")] = True
+    order: Annotated[bool, Says("order lines for a pen: short ways between, inside before outside")] = True
 
     def __post_init__(self) -> None:
         check(self)
@@ -96,6 +97,9 @@ class DxfOptions:
     """Options of DXF."""
 
     version: Annotated[DxfVersion, Says("R2000, or R12 for old cutters")] = DxfVersion.R2000
+    order: Annotated[bool, Says("order contours for a tool: inside before outside, short ways between")] = (
+        True
+    )
 
     def __post_init__(self) -> None:
         check(self)

@@ -97,7 +97,7 @@ def render(page: Page, options: PngOptions = DEFAULTS) -> bytes:
             f"a preview of about {page.vertex_count:,} vertices, past the limit of {MAX_VERTICES:,}: "
             "show less cloth, or the tile"
         )
-    drawing = svg.render(_shown(page), SvgOptions(profile=Profile.COMPACT, cloth=options.cloth))
+    drawing = svg.render(_shown(page), SvgOptions(profile=Profile.COMPACT, cloth=options.cloth, order=False))
     # Sides are rounded to whole pixels each by itself, and the picture fills them.
     drawing = drawing.replace(b" viewBox=", b' preserveAspectRatio="none" viewBox=', 1)
     data: bytes = cairo_drawer().svg2png(bytestring=drawing, output_width=width, output_height=height)

@@ -44,7 +44,7 @@ from batik_vector.export.options import Curves, Profile, SvgOptions
 from batik_vector.export.palette import hex_colour, xml_label
 from batik_vector.export.provenance import NAMESPACE, xml_fields
 from batik_vector.export.strokes import CONTROL, CURVE, LINE, MOVE, Pen, Strokes
-from batik_vector.export.walk import Outlines, in_memory, walk
+from batik_vector.export.walk import Order, Outlines, in_memory, walk
 from batik_vector.geometry.outlines import Index
 from batik_vector.units import STEPS_PER_MM, format_mm
 
@@ -79,7 +79,7 @@ def write(page: Page, sink: BinaryIO, options: SvgOptions = DEFAULTS) -> None:
     Raises:
         ExportError: where the page holds what cannot be written.
     """
-    walk(page, _SvgSurface(sink, options))
+    walk(page, _SvgSurface(sink, options), Order.LINES if options.order else Order.GIVEN)
 
 
 def svg_text(page: Page, options: SvgOptions = DEFAULTS) -> str:

@@ -6,19 +6,33 @@ page gives them. A surface spells them out and knows nothing of shapely.
 
 from __future__ import annotations
 
+import enum
 import io
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from itertools import chain
 from typing import BinaryIO, Protocol
 
 from batik_vector.artwork import Ink, Page
 from batik_vector.export.numbers import check_range
 from batik_vector.geometry.outlines import Offsets, Outlines
 
-__all__ = ["GUIDE_PEN", "Offsets", "Outlines", "RecordingSurface", "Surface", "in_memory", "walk"]
+__all__ = ["GUIDE_PEN", "Offsets", "Order", "Outlines", "RecordingSurface", "Surface", "in_memory", "walk"]
 
 GUIDE_PEN = 0
 """The number of a layer that no pen draws."""
+
+
+class Order(enum.Enum):
+    """In which order the marks of an ink are handed over."""
+
+    GIVEN = enum.auto()
+    """As the page gives them."""
+    LINES = enum.auto()
+    """Lines in a good order for a pen; areas as the page gives them."""
+    CONTOURS = enum.auto()
+    """The outlines of areas, each ring by itself, and lines, all together in a good order for a tool. All of
+    them are handed over as areas."""
 
 
 class Surface(Protocol):
@@ -47,8 +61,13 @@ def in_memory(write: Callable[[BinaryIO], object]) -> bytes:
     return sink.getvalue()
 
 
-def walk(page: Page, surface: Surface) -> None:
+def walk(page: Page, surface: Surface, order: Order = Order.GIVEN) -> None:
     """Drive a surface over a page.
+
+    Args:
+        page: what is drawn.
+        surface: what draws it.
+        order: of the marks of each ink; the order of inks is always that of painting.
 
     Raises:
         ExportError: where a coordinate is not finite or out of range, or a mark is of the wrong kind.
@@ -58,12 +77,31 @@ def walk(page: Page, surface: Surface) -> None:
     for number, plate in enumerate(page.plates):
         pen += not plate.guide
         surface.ink(plate.ink, GUIDE_PEN if plate.guide else pen)
-        for pieces, draw in ((page.areas(number), surface.areas), (page.lines(number), surface.lines)):
+        areas, lines = (_checked(pieces) for pieces in (page.areas(number), page.lines(number)))
+        if order is not Order.GIVEN:
+            areas, lines = _in_order(areas, lines, order)
+        for pieces, draw in ((areas, surface.areas), (lines, surface.lines)):
             for outlines in pieces:
-                if len(outlines):
-                    check_range(outlines.points)
-                    draw(outlines)
+                draw(outlines)
     surface.end()
+
+
+def _checked(pieces: Iterator[Outlines]) -> Iterator[Outlines]:
+    for outlines in pieces:
+        if len(outlines):
+            check_range(outlines.points)
+            yield outlines
+
+
+def _in_order(
+    areas: Iterator[Outlines], lines: Iterator[Outlines], order: Order
+) -> tuple[Iterator[Outlines], Iterator[Outlines]]:
+    # To import what orders marks takes a while, and most files have nothing to order.
+    from batik_vector.processes.order import contours, ordered
+
+    if order is Order.CONTOURS:
+        return ordered(contours(chain(areas, lines))), iter(())
+    return areas, ordered(lines)
 
 
 @dataclass

@@ -70,7 +70,7 @@ def measured(recipe: Recipe, artwork: Artwork | None = None, pictures: bool = Tr
     return Measured(features, render(small, "svg", _PICTURE, check=False), _png(small))
 
 
-_PICTURE = SvgOptions(profile=Profile.COMPACT)
+_PICTURE = SvgOptions(profile=Profile.COMPACT, order=False)
 
 
 def _of_tile(tile: Artwork, recipe: Recipe) -> dict[str, Any]:

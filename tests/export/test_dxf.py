@@ -18,7 +18,7 @@ from batik_vector.export import dxf, dxf_skeleton, pdf, svg
 from batik_vector.export.options import DxfOptions, DxfVersion
 from batik_vector.export.palette import ACI, distinct_aci, dxf_names, r12_names, rgb
 
-from .drawings import area_of, disc, empty, geometries, length_of, sample
+from .drawings import area_of, disc, empty, geometries, length_of, line, sample
 from .readers import Ring, svg_layers
 
 pytestmark = pytest.mark.filterwarnings(
@@ -27,8 +27,8 @@ pytestmark = pytest.mark.filterwarnings(
 VERSIONS = list(DxfVersion)
 
 
-def written(artwork: Artwork, version: DxfVersion = DxfVersion.R2000) -> bytes:
-    return dxf.render(artwork, DxfOptions(version))
+def written(artwork: Artwork, version: DxfVersion = DxfVersion.R2000, order: bool = False) -> bytes:
+    return dxf.render(artwork, DxfOptions(version, order))
 
 
 def name(version: DxfVersion, ink: str) -> str:
@@ -36,8 +36,8 @@ def name(version: DxfVersion, ink: str) -> str:
     return (dxf_names if version is DxfVersion.R2000 else r12_names)([ink])[0]
 
 
-def opened(artwork: Artwork, version: DxfVersion = DxfVersion.R2000) -> Any:
-    return read(io.StringIO(written(artwork, version).decode("ascii")))
+def opened(artwork: Artwork, version: DxfVersion = DxfVersion.R2000, order: bool = False) -> Any:
+    return read(io.StringIO(written(artwork, version, order).decode("ascii")))
 
 
 def rings(document: Any, layer: str) -> list[Ring]:
@@ -68,6 +68,22 @@ def test_areas_and_lengths_are_the_artworks(version: DxfVersion, bleed: float) -
     for ring in wax + soga:
         assert ring.points[0] != ring.points[-1]
     assert [r.closed for r in rings(document, name(version, "Indigo_2"))] == [True, False]
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_what_lies_inside_is_cut_first_and_the_drawing_stays_the_same(version: DxfVersion) -> None:
+    nested = geometries(disc(20, 15, 12, 10), disc(20, 15, 8, 6), disc(20, 15, 4), disc(36, 4, 2))
+    seam = geometries(line((20, 12), (20, 18)), line((18, 14), (22, 14), (22, 16), (18, 14)))
+    layer = Layer(Ink("w", "#000000"), nested, seam)
+    artwork = Artwork("", Cell(40_000, 30_000), (layer,))
+    given, found = (rings(opened(artwork, version, order), name(version, "w")) for order in (False, True))
+    assert [ring.closed for ring in given] == [True] * 6 + [False, True]
+    across = [max(x for x, _ in ring.points) for ring in found]
+    assert max(across.index(20), across.index(22)) < across.index(24)
+    assert across.index(24) < across.index(26) < across.index(28) < across.index(30) < across.index(32)
+    assert sorted((r.closed, sorted(r.points)) for r in found) == sorted(
+        (r.closed, sorted(r.points)) for r in given
+    )
 
 
 @pytest.mark.parametrize("version", VERSIONS)

@@ -147,6 +147,13 @@ def rings_of(page: Any) -> list[list[list[float]]]:
     return found
 
 
+def begun_anew(ring: list[list[float]]) -> list[list[float]]:
+    """The ring from its least point on, a line of two points from the lesser: where they begin is free."""
+    points = [[float(x), float(y)] for x, y in ring]
+    first = points.index(min(points))
+    return points[first:] + points[:first]
+
+
 def test_every_format_reads_back_as_the_cloth() -> None:
     page = cloth(width=170, length=230, edge="bleed", bleed=3, selvedge=12, marks=True)
     expected = rings_of(page)
@@ -158,7 +165,7 @@ def test_every_format_reads_back_as_the_cloth() -> None:
     polylines = [
         [list(point) for point in each.get_points("xy")] for each in drawing.modelspace().query("LWPOLYLINE")
     ]
-    assert sorted(polylines) == sorted(expected)
+    assert sorted(map(begun_anew, polylines)) == sorted(map(begun_anew, expected))
     assert {each.dxf.layer for each in drawing.modelspace()} == {"wax", "soga", "marks"}
 
     layers = svg_layers(svg.render(page))
@@ -170,7 +177,7 @@ def test_every_format_reads_back_as_the_cloth() -> None:
         for ring in svg_rings(layer, filled)
         if label != "%99 cloth"
     ]
-    assert sorted(found) == sorted(expected)
+    assert sorted(map(begun_anew, found)) == sorted(map(begun_anew, expected))
 
     content = content_of(pdf.render(page))
     found = []

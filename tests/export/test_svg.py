@@ -39,7 +39,7 @@ def test_areas_and_lengths_are_the_artworks(profile: Profile, bleed: float) -> N
 def test_closed_lines_are_closed_and_no_first_point_is_repeated() -> None:
     layers = svg_layers(written(sample()))
     drawn = svg_rings(layers["2 soga brown"], filled=False)
-    assert [r.closed for r in drawn] == [False, True, False]
+    assert sorted(r.closed for r in drawn) == [False, False, True]
     for ring in drawn + svg_rings(layers["1 wax"], filled=True):
         assert ring.points[0] != ring.points[-1]
 
@@ -47,14 +47,14 @@ def test_closed_lines_are_closed_and_no_first_point_is_repeated() -> None:
 def test_page_is_in_mm_and_y_runs_down() -> None:
     root = ET.fromstring(written(sample()))
     assert (root.get("width"), root.get("height"), root.get("viewBox")) == ("40mm", "30mm", "0 0 40 30")
-    stem = svg_rings(svg_layers(written(sample()))["2 soga brown"], filled=False)[0]
-    assert stem.points == [(1, 29), (39, 29), (39, 26.5)]
+    given = svg_rings(svg_layers(written(sample(), order=False))["2 soga brown"], filled=False)
+    assert given[0].points == [(1, 29), (39, 29), (39, 26.5)]
 
 
 def test_bleed_grows_the_page_and_moves_the_drawing() -> None:
     root = ET.fromstring(written(sample(2.5)))
     assert (root.get("width"), root.get("viewBox")) == ("45mm", "0 0 45 35")
-    stem = svg_rings(svg_layers(written(sample(2.5)))["2 soga brown"], filled=False)[0]
+    stem = svg_rings(svg_layers(written(sample(2.5), order=False))["2 soga brown"], filled=False)[0]
     assert stem.points[0] == (3.5, 31.5)
 
 
