@@ -84,6 +84,8 @@ class Plan:
     """Squares in a row whose sides are drawn twice."""
     merged: int
     """Squares in a row whose sides are joined."""
+    strokes: tuple[int, ...]
+    """Strokes that are brought into order."""
     cloth: tuple[int, ...]
     """Lengths of cloth in metres."""
     patterns: int
@@ -103,6 +105,7 @@ FULL = Plan(
     overlays=(100, 1_000, 10_000),
     squares=40,
     merged=160,
+    strokes=(1_000, 10_000),
     cloth=(1, 3, 10),
     patterns=10_000,
     variants=200,
@@ -116,6 +119,7 @@ QUICK = Plan(
     overlays=(100, 400),
     squares=12,
     merged=30,
+    strokes=(100, 400),
     cloth=(1,),
     patterns=200,
     variants=20,
@@ -240,6 +244,24 @@ def lines(plan: Plan) -> list[Contest]:
         contest("lines drawn twice", plan.squares, "deduplicate,linemerge,linesort"),
         contest("lines joined", plan.merged, "linemerge,linesort"),
     ]
+
+
+def order(plan: Plan) -> list[Contest]:
+    """Strokes brought into an order with little way between them."""
+
+    def contest(count: int) -> Contest:
+        theirs = (str(PEERS / "python"), "-m", "benchmarks.peers.vpype_order")
+        return Contest(
+            f"order {count}",
+            (
+                Entrant(BATIK, BATIK, own("ordering", str(count)), True),
+                Entrant("0", "vpype `linesort`", (*theirs, "0", str(count)), True),
+                Entrant("5", "vpype `linesort --two-opt --passes 5`", (*theirs, "5", str(count)), True),
+            ),
+            plan.rounds,
+        )
+
+    return [contest(count) for count in plan.strokes]
 
 
 def growth(plan: Plan) -> list[Contest]:
@@ -383,6 +405,12 @@ def facts(section: str, plan: Plan) -> list[Fact]:
     """Return what is to be found out about the files of a section."""
     if section == "pdf":
         return [Fact("pdf boxes", own("readback", "pdf", "{folder}/own.pdf"), plan.rings)]
+    if section == "order":
+        return [
+            Fact(f"{contest.name}/{entrant.name} way", (*entrant.command, "way"))
+            for contest in order(plan)
+            for entrant in contest.entrants
+        ]
     if section != "dxf":
         return []
     audit = (str(PEERS / "python"), "-m", "benchmarks.readback", "audit", "{folder}/drawing.dxf")
@@ -405,6 +433,7 @@ SECTIONS: Mapping[str, Callable[[Plan], list[Contest]]] = MappingProxyType(
         "dxf": dxf,
         "three": three,
         "lines": lines,
+        "order": order,
         "growth": growth,
         "limits": limits,
         "start": start,

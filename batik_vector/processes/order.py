@@ -27,6 +27,9 @@ BATCH = 1 << 20
 GOINGS = 2
 """How often the order is improved and the starts of closed strokes are settled by it, in turn."""
 
+TRIED = 24
+"""Vertices of a closed stroke that are tried as its start; when the order stands, all are."""
+
 
 def contours(pieces: Iterable[Outlines]) -> Iterator[Outlines]:
     """Yield each ring as a mark of its own, without names: holes are strokes like any other.
@@ -103,13 +106,13 @@ def in_order(strokes: Outlines) -> Outlines:
     # What lies in the same stroke, or in none, has an order of its own.
     groups = np.unique(parent, return_inverse=True)[1].astype(np.intp)
     among = chained(ends, groups)
-    for _ in range(GOINGS):
+    for going in range(GOINGS):
         among = improved(among, ends, groups)
         among = _from_the_corner(among, ends, int(np.count_nonzero(groups == 0)))
         passed = _nested(among, parent)
         if not strokes.closed.any():
             break
-        start = settled(strokes, passed, start)
+        start = settled(strokes, passed, start, TRIED if going < GOINGS - 1 else None)
         ends = ends_of(strokes, start)
     return _drawn(strokes, passed, start)
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from batik_vector.geometry.outlines import Index, Steps
 from batik_vector.processes.ordering.neighbours import NOBODY, neighbours
 
-NEAREST = 8
+NEAREST = 5
 """Neighbours of an end that it may be joined to, at each going over."""
 
 
@@ -57,15 +57,11 @@ def _gaps(
         return []
     other, apart = neighbours(ends[sites], group[sites >> 1], sites >> 1, NEAREST)
     one = np.repeat(np.arange(len(sites)), other.shape[1])
-    two, apart = other.ravel(), apart.ravel()
-    # Each pair once: seen from the lower, or from the upper where the lower does not see it.
-    there = two != NOBODY
-    one, two, apart = one[there], two[there], apart[there]
-    low, high = np.minimum(one, two), np.maximum(one, two)
-    _, first = np.unique(low * len(sites) + high, return_index=True)
-    first = first[np.lexsort([high[first], low[first], apart[first]])]
-    u, v = sites[low[first]].tolist(), sites[high[first]].tolist()
-    return list(zip(u, v, strict=True))
+    two, farthest, apart = other.ravel(), apart[:, -1], apart.ravel()
+    # Pairs that both see are taken as the lower sees them.
+    taken = np.flatnonzero((two != NOBODY) & ((one < two) | (apart >= farthest[two])))
+    taken = taken[np.argsort(apart[taken], kind="stable")]
+    return list(zip(sites[one[taken]].tolist(), sites[two[taken]].tolist(), strict=True))
 
 
 def _walked(link: list[int], group: Index) -> Index:

@@ -16,7 +16,11 @@ PARTS = 16
 
 def distances(a: Steps, b: Steps) -> Distances:
     """Return how far places lie apart, shape (...,), of coordinates of shape (..., 2)."""
-    x, y = a[..., 0] - b[..., 0], a[..., 1] - b[..., 1]
+    return lengths(a[..., 0] - b[..., 0], a[..., 1] - b[..., 1])
+
+
+def lengths(x: NDArray[np.int64], y: NDArray[np.int64]) -> Distances:
+    """Return how long steps are, of so much across and so much up."""
     found: NDArray[np.float64] = np.sqrt(x * x + y * y)
     found *= PARTS
     return np.asarray(np.rint(found), np.int64)

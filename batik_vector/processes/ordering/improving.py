@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from batik_vector.geometry.outlines import Index, Steps
-from batik_vector.processes.ordering.distances import PARTS, Distances, distances
+from batik_vector.processes.ordering.distances import PARTS, Distances, lengths
 from batik_vector.processes.ordering.neighbours import NOBODY, neighbours
 from batik_vector.values import frozen
 
@@ -52,52 +52,52 @@ class _Tour:
 
     def __init__(self, order: Index, ends: Steps, group: Index) -> None:
         self.order = order.copy()
-        self.ends, self.group = ends, group
+        self.x, self.y, self.group = ends[:, 0].copy(), ends[:, 1].copy(), group
         self.place = np.empty_like(order)
         self.place[order] = np.arange(len(order))
         self.mate = np.full(len(order), NOBODY, np.intp)
         out, into = order[1:-1:2], order[2::2]
         same = group[out >> 1] == group[into >> 1]
         self.mate[out[same]], self.mate[into[same]] = into[same], out[same]
+        self.way = self.gap(np.arange(len(order)), self.mate)
+        """How far each end is from the one that it is joined to."""
 
     def gap(self, a: Index, b: Index) -> Distances:
         """Return how far ends lie apart, 0 where one of them is nobody."""
-        apart = distances(self.ends[a], self.ends[b])
+        apart = lengths(self.x[a] - self.x[b], self.y[a] - self.y[b])
         apart[(a < 0) | (b < 0)] = 0
         return apart
 
-    def turns(self, u: Index, v: Index) -> _Changes:
+    def turns(self, u: Index, v: Index, apart: Distances) -> _Changes:
         """Return what turning round saves that joins these ends."""
         place = self.place
         # Only what is passed the same way can be joined so.
-        alike = ((place[u] ^ place[v]) & 1) == 0
+        alike = np.flatnonzero(((place[u] ^ place[v]) & 1) == 0)
         u, v = u[alike], v[alike]
-        a, b = self.mate[u], self.mate[v]
-        saves = self.gap(u, a) + self.gap(v, b) - self.gap(u, v) - self.gap(a, b)
-        return self._saving(np.full(len(u), TURN), u, v, v, saves)
+        saves = self.way[u] + self.way[v] - apart[alike] - self.gap(self.mate[u], self.mate[v])
+        return self._saving(TURN, u, v, v, saves)
 
-    def moves(self, u: Index, v: Index, size: int) -> _Changes:
+    def moves(self, u: Index, v: Index, apart: Distances, size: int) -> _Changes:
         """Return what moving saves: the strokes from v on, away from what v is joined to, to behind u."""
-        order, place, mate = self.order, self.place, self.mate
-        away = np.where(place[v] & 1, -1, 1)
-        last = place[v] + away * (2 * size - 1)
+        order, place, mate, way = self.order, self.place, self.mate, self.way
+        at, from_ = place[u], place[v]
+        last = from_ + np.where(from_ & 1, 1 - 2 * size, 2 * size - 1)
         inside = (last >= 0) & (last < len(order))
-        u, v, last = u[inside], v[inside], last[inside]
-        w = order[last]
-        within = self.group[v >> 1] == self.group[w >> 1]
-        u, v, w, last = u[within], v[within], w[within], last[within]
-        a, b, c = mate[u], mate[v], mate[w]
-        low, high = np.minimum(place[v], last), np.maximum(place[v], last)
-        apart = (place[u] < low) | (place[u] > high)
-        apart &= (u != b) & (u != c)
-        saves = self.gap(u, a) + self.gap(v, b) + self.gap(w, c)
-        saves -= self.gap(u, v) + self.gap(w, a) + self.gap(b, c)
-        saves[~apart] = 0
-        return self._saving(np.full(len(u), size), u, v, w, saves)
+        inside &= (at < np.minimum(from_, last)) | (at > np.maximum(from_, last))
+        w = order[np.where(inside, last, 0)]
+        inside &= self.group[v >> 1] == self.group[w >> 1]
+        inside &= (u != mate[v]) & (u != mate[w])
+        # No way is shorter than none.
+        inside &= way[u] + way[v] + way[w] - apart >= LEAST
+        some = np.flatnonzero(inside)
+        u, v, w = u[some], v[some], w[some]
+        saves = way[u] + way[v] + way[w] - apart[some]
+        saves -= self.gap(w, mate[u]) + self.gap(mate[v], mate[w])
+        return self._saving(size, u, v, w, saves)
 
-    def _saving(self, kind: Index, u: Index, v: Index, w: Index, saves: Distances) -> _Changes:
+    def _saving(self, kind: int, u: Index, v: Index, w: Index, saves: Distances) -> _Changes:
         good = np.flatnonzero(saves >= LEAST)
-        return _Changes(kind[good], u[good], v[good], w[good], saves[good])
+        return _Changes(np.full(len(good), kind), u[good], v[good], w[good], saves[good])
 
     def turn(self, u: int, v: int) -> None:
         """Turn round what lies between two ends that are passed the same way."""
@@ -145,6 +145,8 @@ def improved(order: Index, ends: Steps, group: Index, rounds: int = ROUNDS) -> I
         if not len(changes.u):
             break
         asked = _made(tour, changes)
+        changed = np.flatnonzero(asked)
+        tour.way[changed] = tour.gap(changed, tour.mate[changed])
     return tour.order
 
 
@@ -169,13 +171,14 @@ def _pairs(ends: Steps, group: Index) -> tuple[Index, Index, Distances]:
 
 def _weighed(tour: _Tour, u: Index, v: Index, apart: Distances) -> _Changes:
     """Return the changes that save way, those that save most first."""
-    mine, theirs = tour.gap(u, tour.mate[u]), tour.gap(v, tour.mate[v])
-    joined = tour.mate[u] == v
-    # A new gap has to be shorter than one of those that it is for.
-    near = np.flatnonzero(~joined & ((apart < mine) | (tour.mate[u] < 0)))
-    parts = [tour.turns(u[near], v[near])]
-    near = np.flatnonzero(~joined & (apart < mine + theirs))
-    parts += [tour.moves(u[near], v[near], size) for size in range(1, LONGEST + 1)]
+    mine, theirs = tour.way[u], tour.way[v]
+    # A new gap has to be shorter than one of those that it is for, or one of an end that is joined to nobody.
+    short, free = (apart < mine) & (tour.mate[u] != v), tour.mate[u] < 0
+    near = np.flatnonzero(short | free)
+    parts = [tour.turns(u[near], v[near], apart[near])]
+    near = np.flatnonzero(short | (apart < theirs) & (tour.mate[u] != v))
+    u, v, apart = u[near], v[near], apart[near]
+    parts += [tour.moves(u, v, apart, size) for size in range(1, LONGEST + 1)]
     kind, a, b, c, saves = (
         np.concatenate([getattr(part, name) for part in parts]) for name in ("kind", "u", "v", "w", "saves")
     )

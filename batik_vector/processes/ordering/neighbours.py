@@ -15,7 +15,7 @@ from batik_vector.processes.ordering.distances import Distances, distances
 
 STRIP = 3.0
 """How many times farther apart strips lie than the places within one, about."""
-ABOVE = 4
+ABOVE = 3
 """Places that are looked at above, and as many below, in each strip."""
 NOBODY = -1
 FAR = np.int64(2**62)
@@ -28,7 +28,7 @@ def neighbours(places: Steps, group: Index, of: Index, count: int) -> tuple[Inde
         places: shape (n, 2).
         group: shape (n,), counted from 0: only places of one group are neighbours.
         of: shape (n,), whose each place is: places of one owner are no neighbours.
-        count: how many are asked for, 24 at most.
+        count: how many are asked for, 18 at most.
 
     Returns:
         Their numbers, shape (n, count), ``NOBODY`` where there are too few, and how far they are.
