@@ -145,4 +145,6 @@ class Automaton(CellPattern):
             row = table[4 * np.roll(row, 1) + 2 * row + np.roll(row, -1)]
             found.append(row)
         history = np.array(found, bool)
-        return np.concatenate([history, history[-2:0:-1]]) if self.mirror else history
+        # Where it goes on over its edges, the next one begins with the first row.
+        back = history[-2:0:-1] if self.periodic else history[-2::-1]
+        return np.concatenate([history, back]) if self.mirror else history

@@ -53,77 +53,71 @@ def rings(field: Array, level: float) -> tuple[Points, Indices]:
     Returns:
         Points of all rings, none repeated at the end, and where each ring begins among them, and the end.
     """
-    rows, columns = field.shape
-    value = np.full((rows + 2, columns + 2), OUTSIDE)
-    value[1:-1, 1:-1] = field
-    above = value > level
-    across = above[:, 1:] != above[:, :-1]
-    upward = above[1:] != above[:-1]
-    low, left = np.flatnonzero(across), np.flatnonzero(upward)
+    grid = _Grid(field, level)
+    across, upright = grid.above[:, 1:] != grid.above[:, :-1], grid.above[1:] != grid.above[:-1]
+    low, left = np.flatnonzero(across), np.flatnonzero(upright)
     if not len(low):
         return np.empty((0, 2)), np.zeros(1, np.intp)
-    number_across = np.zeros(across.size, np.int32)
-    number_across[low] = np.arange(len(low))
-    number_upward = np.zeros(upward.size, np.int32)
-    number_upward[left] = len(low) + np.arange(len(left))
-    wide = columns + 1
-    # Every square with a crossing has one below or to its left, or stands right of or under one that has.
-    corner = above.ravel()
-    square = np.unique(np.concatenate([_squares(low, columns, rows), _upright(left, columns)]))
-    row, column = square // wide, square % wide
-    at = row * (columns + 2) + column
-    case = (
-        corner[at] + 2 * corner[at + 1] + 4 * corner[at + columns + 3] + 8 * corner[at + columns + 2]
-    ).astype(np.int64)
-    flat = value.ravel()
-    saddle = np.flatnonzero((case == 5) | (case == 10))
-    with np.errstate(over="ignore"):
-        mean = (
-            flat[at[saddle]]
-            + flat[at[saddle] + 1]
-            + flat[at[saddle] + columns + 3]
-            + flat[at[saddle] + columns + 2]
-        ) / 4
-    case[saddle[mean > level]] += 16
-    sides = (
-        number_across[row * wide + column],
-        number_upward[row * (columns + 2) + column + 1],
-        number_across[(row + 1) * wide + column],
-        number_upward[row * (columns + 2) + column],
-    )
-    following = np.zeros(len(low) + len(left), np.int64)
-    for kind in np.unique(case).tolist():
-        mine = case == kind
-        for begin, end in JOINED[kind - 16] if kind >= 16 else SEGMENTS[kind]:
-            following[sides[begin][mine]] = sides[end][mine]
-    order, sizes = rings_of(following)
-    points = np.concatenate([_crossings(value, low, level, True), _crossings(value, left, level, False)])
+    # A square whose lower, upper and left sides are not crossed is all above the level, or all below.
+    squares = np.flatnonzero(across[:-1] | across[1:] | upright[:, :-1])
+    order, sizes = rings_of(grid.following(low, left, squares))
+    points = np.concatenate([grid.crossings(low, True), grid.crossings(left, False)])
     return points[order] - 1, np.append(0, np.cumsum(sizes)).astype(np.intp)
 
 
-def _squares(low: Indices, columns: int, rows: int) -> Indices:
-    """Return the squares above and below crossings of horizontal edges."""
-    wide = columns + 1
-    row = low // wide
-    return np.concatenate([low[row <= rows], (low - wide)[row > 0]])
+class _Grid:
+    """A field with a frame of samples below the level all round: only what is above is kept framed."""
 
+    def __init__(self, field: Array, level: float) -> None:
+        self.field, self.level = field, level
+        self.rows, self.columns = field.shape[0] + 2, field.shape[1] + 2
+        self.above = np.zeros((self.rows, self.columns), bool)
+        np.greater(field, level, out=self.above[1:-1, 1:-1])
 
-def _upright(left: Indices, columns: int) -> Indices:
-    """Return the squares right and left of crossings of upright edges."""
-    row, column = left // (columns + 2), left % (columns + 2)
-    wide = columns + 1
-    return np.concatenate([(row * wide + column)[column <= columns], (row * wide + column - 1)[column > 0]])
+    def value(self, row: Indices, column: Indices) -> Array:
+        """Return samples, counted with the frame."""
+        last = self.field.shape
+        inside = (row > 0) & (row <= last[0]) & (column > 0) & (column <= last[1])
+        known = self.field[np.clip(row - 1, 0, last[0] - 1), np.clip(column - 1, 0, last[1] - 1)]
+        return np.where(inside, known, OUTSIDE)
 
+    def crossings(self, edges: Indices, across: bool) -> Points:
+        """Return where edges of the grid, across or upright ones by their numbers, pass the level."""
+        wide = self.columns - across
+        row, column = edges // wide, edges % wide
+        a, b = self.value(row, column), self.value(row + (not across), column + across)
+        part = (self.level - a) / (b - a)
+        return np.column_stack([column + part, row] if across else [column, row + part])
 
-def _crossings(value: Array, edges: Indices, level: float, across: bool) -> Points:
-    """Return where edges of the grid pass the level."""
-    columns = value.shape[1]
-    wide = columns - 1 if across else columns
-    row, column = edges // wide, edges % wide
-    a = value[row, column]
-    b = value[row, column + 1] if across else value[row + 1, column]
-    part = (level - a) / (b - a)
-    return np.column_stack([column + part, row]) if across else np.column_stack([column, row + part])
+    def following(self, low: Indices, left: Indices, squares: Indices) -> NDArray[np.int64]:
+        """Return for each crossing the next one of its ring: those of edges across first, then the upright.
+
+        Args:
+            low, left: the edges that are crossed, by their numbers, ascending.
+            squares: those between, by the numbers of the edges below them.
+        """
+        wide = self.columns - 1
+        row, column = squares // wide, squares % wide
+        at = row * self.columns + column
+        case, above = np.zeros(len(at), np.int64), self.above.ravel()
+        for bit, beyond in enumerate((0, 1, self.columns + 1, self.columns)):
+            case |= above[at + beyond].astype(np.int64) << bit
+        saddle = np.flatnonzero((case == 5) | (case == 10))
+        mine, other = row[saddle], column[saddle]
+        corners = [self.value(mine + y, other + x) for y in (0, 1) for x in (0, 1)]
+        case[saddle[np.mean(corners, axis=0) > self.level]] += 16
+        sides = (
+            np.searchsorted(low, squares),
+            len(low) + np.searchsorted(left, at + 1),
+            np.searchsorted(low, squares + wide),
+            len(low) + np.searchsorted(left, at),
+        )
+        following = np.zeros(len(low) + len(left), np.int64)
+        for kind in np.unique(case).tolist():
+            held = case == kind
+            for begin, end in JOINED[kind - 16] if kind >= 16 else SEGMENTS[kind]:
+                following[sides[begin][held]] = sides[end][held]
+        return following
 
 
 def smooth(points: Points, offsets: Indices, straight: NDArray[np.bool_]) -> Outline:

@@ -21,6 +21,9 @@ TURTLE = '+-|[]!"f'
 MOST_RULES, LONGEST_RULE = 200, 10_000
 """Rules of one system, and characters of one rule."""
 
+MOST_SYMBOLS = 250
+"""Symbols of one system: their numbers are bytes."""
+
 _HEAD = re.compile(r"\s*+([^\s])\s*+(?:\(\s*+([a-z]\w*+)\s*+\))?\s*+(?::\s*+(\S++))?\s*+", re.ASCII)
 _FACTOR = r"(?:(?:\d++\.?+\d*+|\.\d++)(?:[eE][-+]?+\d++)?|[a-zA-Z]\w*+)"
 _TERM = re.compile(rf"\s*+([-+]?+)\s*+({_FACTOR}(?:\s*+[*/]\s*+{_FACTOR})*)\s*+", re.ASCII)
@@ -92,6 +95,8 @@ def grammar_of(axiom: str, rules: Sequence[str], draws: str) -> Grammar:
     if not begin:
         raise GeometryError('axiom = "", expected a word to begin with, such as "F"')
     known = {*TURTLE, *draws, *(rule.symbol for rule in read)}
+    if len(known) > MOST_SYMBOLS:
+        raise GeometryError(f"rules of {len(known)} symbols, expected {MOST_SYMBOLS} at most")
     words = [("axiom", axiom, begin)]
     words += [
         (f"rules[{n}]", text, rule.word) for n, (text, rule) in enumerate(zip(rules, read, strict=True))

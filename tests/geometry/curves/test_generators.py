@@ -76,6 +76,8 @@ def test_rule_90_is_pascals_triangle_modulo_two() -> None:
 
 def test_a_mirrored_history_closes_and_begins_where_it_is_told() -> None:
     cells = Automaton(rule=30, columns=40, rows=12, start=(3, 7)).cells()
+    assert (cells == cells[::-1]).all()
+    cells = Automaton(rule=30, columns=40, rows=12, start=(3, 7), periodic=True).cells()
     assert len(cells) == 22
     assert np.flatnonzero(cells[0]).tolist() == [3, 7]
     assert (cells[1:] == cells[:0:-1]).all()
