@@ -253,7 +253,8 @@ def _close_strands(shapes: Geometries, reach: float) -> float:
         near = np.hypot(*(xy[first:stop] - xy[one]).T) < 2 * reach
         close += int(np.count_nonzero(near & (np.abs(along[first:stop] - along[one]) > 4 * reach)))
     # Strands side by side are close all along, and their outlines cross once in a while.
-    return float(close * len(xy) / min(len(xy), SAMPLED) / 2 * min(1.0, 2 * spacing / reach))
+    share = 1.0 if 2 * spacing >= reach else 2 * spacing / reach
+    return float(close * len(xy) / min(len(xy), SAMPLED) / 2 * share)
 
 
 def refuse_pairs(tree: shapely.STRtree, boxes: Geometries) -> None:
