@@ -66,6 +66,8 @@ BUDGETS = Budgets(
         "evaluations per vertex, spiral": 58,
         "evaluations per vertex, segment": 81,
         "evaluations per vertex, wave": 50,
+        "evaluations per vertex, fourier": 88,
+        "evaluations per vertex, attractor": 115,
         "evaluations per vertex, bent layout": 57,
         # Placing ten thousand copies; then the images of a symmetry, of which the same are sorted out.
         "shapely calls for a placement": 63,
