@@ -265,9 +265,11 @@ def _backed_up(path: Path, version: int) -> None:
     target = backup_path(path, version)
     fresh = target.with_name(f"{target.name}.{os.getpid()}.part")
     try:
-        source = sqlite3.connect(f"{path.resolve().as_uri()}?mode=rw", timeout=PATIENCE, uri=True)
-        copy = sqlite3.connect(fresh)
-        with contextlib.closing(source), contextlib.closing(copy):
+        uri = f"{path.resolve().as_uri()}?mode=rw"
+        with (
+            contextlib.closing(sqlite3.connect(uri, timeout=PATIENCE, uri=True)) as source,
+            contextlib.closing(sqlite3.connect(fresh)) as copy,
+        ):
             source.backup(copy)
         os.replace(fresh, target)
     except BaseException as error:
@@ -308,6 +310,9 @@ def told(path: Path) -> Iterator[None]:
     try:
         yield
     except sqlite3.DatabaseError as error:
+        if "fts5" in str(error) or "tokenizer" in str(error):
+            lacking = f"SQLite {sqlite3.sqlite_version} lacks FTS5 with trigrams: 3.34 or later is needed"
+            raise LibraryError(f"{path} cannot be searched: {lacking} ({error})") from error
         words = _WORDS.get((getattr(error, "sqlite_errorcode", None) or 0) & 0xFF)
         if words is None:
             raise

@@ -216,3 +216,12 @@ def test_a_library_that_may_not_be_written_to_is_read(
         with pytest.raises(LibraryError, match="may not be written to; nothing was changed"):
             library.tag("dots", ["x"])
     assert list(tmp_path.iterdir()) == [path]
+
+
+def test_an_sqlite_without_an_index_of_words_is_told(tmp_path: Path) -> None:
+    def lacking() -> None:
+        with schema.told(tmp_path / "my.library"):
+            raise sqlite3.OperationalError("no such module: fts5")
+
+    with pytest.raises(LibraryError, match=r"lacks FTS5 with trigrams: 3\.34 or later is needed"):
+        lacking()
