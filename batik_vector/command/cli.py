@@ -20,6 +20,7 @@ from batik_vector.command.drawings import export_motif_command, import_command
 from batik_vector.command.library import library_command
 from batik_vector.command.options import (
     FORMATS,
+    Finite,
     format_names,
     jobs_option,
     json_option,
@@ -196,7 +197,7 @@ def _bytes(count: int) -> str:
 
 def _limit(name: str, metavar: str, says: str, option: str = "") -> Callable[[Any], Any]:
     """Return an option that sets one of the certificate's limits."""
-    return click.option(f"--{option or name}", name, type=click.FloatRange(min=0), metavar=metavar, help=says)
+    return click.option(f"--{option or name}", name, type=Finite(min=0), metavar=metavar, help=says)
 
 
 @cli.command("check", short_help="Certify tiles: seams, doubles, symmetry.")

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from batik_vector.command.options import Finite
 from batik_vector.command.telling import collecting, reported, stages
 from batik_vector.errors import ExportError
 
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
 @click.option("--repeat", metavar="WORDS", default="grid", help="How the page repeats.  [default: grid]")
 @click.option(
     "--tolerance",
-    type=click.FloatRange(min=0.002, max=5),
+    type=Finite(min=0.002, max=5),
     metavar="MM",
     default=0.02,
     help="How far the cloth may stand from the drawing.  [default: 0.02]",

@@ -55,14 +55,17 @@ def add_command(
     from batik_vector.library.exchange import arrivals
 
     collecting()
-    with reported(as_json) as report, Library(path) as library:
+    with reported(as_json) as report:
         del report["recipes"]
         report["patterns"] = []
         found = arrivals(paths, name)
         for error in found.faults:
             with faults_told(report):
                 raise error
-        save_all(library, found.patterns, processes, report, tags=tags, note=note, quiet=as_json)
+        # Where there is nothing to save no library is begun.
+        if found.patterns:
+            with Library(path) as library:
+                save_all(library, found.patterns, processes, report, tags=tags, note=note, quiet=as_json)
 
 
 def save_all(

@@ -2,12 +2,26 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Sequence
+from typing import Any
 
 import click
 
 from batik_vector.errors import unknown_name
+
+
+class Finite(click.FloatRange):
+    """A number within bounds; ``nan`` and ``inf``, which click lets through, are none."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        """Return the number, or tell what was expected."""
+        number = float(super().convert(value, param, ctx))
+        if not math.isfinite(number):
+            self.fail(f"{value} is no number that is finite.", param, ctx)
+        return number
+
 
 FORMATS = ("svg", "pdf", "dxf", "png")
 """As in :data:`batik_vector.export.FORMATS`, which a test compares."""

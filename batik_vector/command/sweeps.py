@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from batik_vector.command.options import format_names, jobs_option, json_option, set_option
+from batik_vector.command.options import Finite, format_names, jobs_option, json_option, set_option
 from batik_vector.command.telling import collecting, complain, reported
 from batik_vector.errors import unknown_name
 from batik_vector.values import frozen
@@ -187,14 +187,12 @@ def sweep_command(
 @click.option("--only", multiple=True, metavar="KEY", help="Keys that move; all others stay.")
 @click.option(
     "--reach",
-    type=click.FloatRange(0, 1, min_open=True),
+    type=Finite(0, 1, min_open=True),
     default=0.4,
     metavar="SHARE",
     help="How far numbers move, up to 1.  [default: 0.4]",
 )
-@click.option(
-    "--least", type=click.FloatRange(0), default=0.4, metavar="MM", help="Least width.  [default: 0.4]"
-)
+@click.option("--least", type=Finite(0), default=0.4, metavar="MM", help="Least width.  [default: 0.4]")
 @_shared("NAME-random")
 def random_command(
     count: int,

@@ -54,6 +54,9 @@ PER_GROWN_VERTEX = 2.5
 PER_MENDED_VERTEX, PER_ROUNDED_VERTEX = 12.0, 5.0
 """What a vertex costs that is mended or overlaid on the grid, and one that GEOS only rounds there."""
 
+PER_CELL_CORNER = 30.0
+"""What a corner costs of merged cells: their holes are laid into them, and asked whether they are sound."""
+
 PER_DART = 15.0
 """What a dart of a toss costs, and each of its images."""
 
@@ -164,6 +167,15 @@ def spend_on_asking(shapes: Geometries, asked: Indices, per_vertex: float = PER_
     """Take up the work of asking shapes, given by their numbers, how they lie to others."""
     vertices = float(shapely.get_num_coordinates(shapes)[asked].sum())
     (_open.get() or _Account()).take(per_vertex * vertices)
+
+
+def spend_on_cells(corners: int) -> None:
+    """Take up the work of merging cells whose outlines have so many corners.
+
+    Raises:
+        TooLargeError: as :func:`spend`.
+    """
+    spend(corners, per_vertex=PER_CELL_CORNER)
 
 
 def spend_on_darts(count: int) -> None:

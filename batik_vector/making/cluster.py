@@ -19,7 +19,7 @@ Result = TypeVar("Result")
 
 IN_FLIGHT = 3
 """Tasks on their way for each of the cluster's threads: none waits for work, and memory is bounded."""
-PATIENCE = 30
+ANSWER, PATIENCE = 5, 30
 """Seconds to wait for the scheduler, and for a first worker."""
 
 
@@ -44,7 +44,7 @@ def outcomes_on(
             "a cluster needs Dask, which is not installed: pip install 'batik-vector[cluster]'"
         ) from error
     try:
-        client = distributed.Client(scheduler, timeout=PATIENCE, set_as_default=False)
+        client = distributed.Client(scheduler, timeout=ANSWER, set_as_default=False)
     except (OSError, ValueError, TimeoutError) as error:
         raise ExportError(f"--scheduler {scheduler}: nobody answers there: {error}") from error
     try:

@@ -279,8 +279,6 @@ class Sweep:
                 todo.append(variant)
             else:
                 yield Outcome(variant, found)
-        if todo:
-            make_folder(self.manifest.parent)
         for outcome in self._outcomes(todo, workers, scheduler):
             if outcome.result is not None:
                 manifest.add(outcome.result, keys[outcome.task.number])
@@ -290,7 +288,10 @@ class Sweep:
     def _outcomes(
         self, todo: Sequence[Variant], workers: int, scheduler: str
     ) -> Iterator[Outcome[Variant, Made]]:
-        if not scheduler or not todo:
+        if not todo:
+            return
+        if not scheduler:
+            make_folder(self.manifest.parent)
             yield from outcomes(self.making, todo, min(workers, len(todo)))
             return
         from batik_vector.making.cluster import outcomes_on
@@ -299,6 +300,8 @@ class Sweep:
         recipe = read_recipe(self.making.text, self.making.source, folder=self.making.recipe_folder)
         elsewhere = Elsewhere(replace(self.making, text=recipe.source, recipe_folder=None))
         for outcome in outcomes_on(scheduler, elsewhere, todo):
+            # Not before a cluster has answered: a wrong address leaves no folder behind.
+            make_folder(self.manifest.parent)
             sent = outcome.result
             made = None if sent is None else _written(self.making, sent)
             yield Outcome(outcome.task, made, outcome.failure)

@@ -17,7 +17,7 @@ import math
 import re
 from collections.abc import Iterator, Sequence
 
-from batik_vector.errors import Fault, RecipeError
+from batik_vector.errors import Fault, RecipeError, shortened
 from batik_vector.values import frozen
 
 MOST = 100_000
@@ -138,6 +138,9 @@ def _parts(text: str) -> Iterator[str]:
             if part := text[begin:at].strip():
                 yield part
             begin = at + 1
+    if quote or depth > 0:
+        what = "a quote" if quote else "a bracket"
+        raise ValueError(f'{what} is not closed in "{shortened(text[begin:].strip())}"')
 
 
 def variants(

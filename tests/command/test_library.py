@@ -169,6 +169,11 @@ def test_a_recipe_that_does_not_compile_keeps_back_no_other(desk: Path) -> None:
     assert [each["name"] for each in report["patterns"]] == ["dots1"]
 
 
+def test_no_library_is_begun_for_nothing(desk: Path, own_library: Path) -> None:
+    assert "nofile.toml: no such file" in call("library", "add", "nofile.toml", exit_code=2)[1]
+    assert not own_library.exists()
+
+
 def test_many_recipes_are_measured_by_several_processes(desk: Path) -> None:
     folder = desk / "many"
     folder.mkdir()

@@ -84,10 +84,11 @@ def test_another_version_on_a_worker_is_told(
 
 def test_where_nobody_answers_that_is_told(desk: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("distributed")
-    monkeypatch.setattr(cluster, "PATIENCE", 0.2)
+    monkeypatch.setattr(cluster, "ANSWER", 0.2)
     result = CliRunner().invoke(cli, [*ASKED, "--scheduler", "tcp://127.0.0.1:9"])
     assert result.exit_code == 2
     assert "--scheduler tcp://127.0.0.1:9: nobody answers there" in result.output
+    assert not Path("dots-sweep").exists()
 
 
 def test_an_extra_that_is_missing_is_told(desk: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -135,6 +135,10 @@ def test_variations_are_the_same_for_a_seed_on_any_number_of_cores_and_all_hold(
 def test_where_too_few_hold_the_reason_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     Path("star.toml").write_text(STAR)
+    for option in ("--least=nan", "--least=inf", "--reach=nan"):
+        result = CliRunner().invoke(cli, ["random", "star.toml", "-n", "2", option])
+        assert result.exit_code == 2
+        assert f"{option[8:]} is no number that is finite" in result.output
     result = CliRunner().invoke(cli, ["random", "star.toml", "-n", "2", "--least", "30"])
     assert result.exit_code == 2
     assert (

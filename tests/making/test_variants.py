@@ -46,6 +46,8 @@ def test_values_are_read_as_people_write_them(text: str, values: tuple[str, ...]
         ("n=1:1", "nothing between"),
         ("n=1e999:2:3", "finite"),
         ("n=1mm:2cm:3", "expected one unit"),
+        ("n=[100, 50],[120", 'a bracket is not closed in "[120"'),
+        ('n="a","b', "a quote is not closed"),
     ],
 )
 def test_what_is_no_range_is_told(text: str, words: str) -> None:

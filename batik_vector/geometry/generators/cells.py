@@ -11,6 +11,7 @@ from batik_vector.geometry.lsystems.turtle import Complex
 from batik_vector.geometry.nesting import rings_of, with_holes
 from batik_vector.geometry.regions import oriented, polygonal
 from batik_vector.geometry.sampling import Geometries, Indices
+from batik_vector.geometry.work import spend_on_cells
 
 Cells = NDArray[np.bool_]
 
@@ -29,12 +30,16 @@ def merged(cells: Cells, share: float, tolerance: float, *, periodic: bool = Fal
         tolerance: how far a chord may stand off such an arc.
         periodic: whether the cells go on over their edges: corners there are then as round as the
             neighbours beyond leave them, and the regions are cut along the edges.
+
+    Raises:
+        TooLargeError: where they have too many corners.
     """
     rows, columns = cells.shape
     around = np.pad(cells, 2, mode="wrap") if periodic else cells
     points, offsets = _outlines(around)
     if not len(points):
         return np.empty(0, dtype=object)
+    spend_on_cells(len(points))
     points, offsets, _ = rounding.sampled(points, offsets, np.ones(len(points)), share, tolerance)
     ring = np.repeat(np.arange(len(offsets) - 1), np.diff(offsets))
     xy = np.column_stack([points.real, points.imag])

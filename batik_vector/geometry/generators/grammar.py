@@ -59,6 +59,11 @@ def rules_of(words: Sequence[str]) -> tuple[ShapeRule, ...]:
     found = []
     for place, text in enumerate(words):
         read = _RULE.fullmatch(text)
+        if not read and text.split()[:1] and text.split()[0] in RULES:
+            raise GeometryError(
+                f'rules[{place}] = "{shortened(text)}": expected one number behind the name, '
+                f'such as "{text.split()[0]} {DEFAULTS[text.split()[0]]:g}"'
+            )
         if not read or read[1] not in RULES:
             near = nearest(text.split()[0], list(RULES)) if text.split() else None
             hint = f'did you mean "{near}"?' if near else f"expected one of {', '.join(RULES)}"

@@ -13,6 +13,7 @@ import shapely
 from batik_vector.geometry.lsystems.turtle import Complex
 from batik_vector.geometry.regions import FillRule, oriented, polygonal, settle
 from batik_vector.geometry.sampling import Array, Geometries, Indices, Points
+from batik_vector.geometry.work import foretell_union, spend_on_union
 
 STRAIGHT = 1e-9
 """Turns of less (radians) are none."""
@@ -61,6 +62,9 @@ def bodies(points: Complex, offsets: Indices, widths: Array, tolerance: float) -
         offsets: where each strand begins, and the end.
         widths: breadth of the stroke at each point.
         tolerance: how far a chord may stand off a round end.
+
+    Raises:
+        TooLargeError: where strokes cross too often to be welded.
     """
     count = np.diff(offsets)
     single = count > 1
@@ -81,7 +85,11 @@ def bodies(points: Complex, offsets: Indices, widths: Array, tolerance: float) -
     shapes: Geometries = np.asarray(shapely.polygons(rings), dtype=object)
     sound = np.asarray(shapely.is_valid(shapes))
     mended = [settle([shapely.get_coordinates(each)], FillRule.NONZERO) for each in shapes[~sound]]
-    return welded(np.concatenate([shapes[sound], *mended]))
+    strokes = np.concatenate([shapes[sound], *mended])
+    foretell_union([strokes])
+    made = welded(strokes)
+    spend_on_union(strokes, made)
+    return made
 
 
 def welded(shapes: Geometries) -> Geometries:

@@ -82,9 +82,11 @@ def walked(word: Word, draws: str, gait: Gait, marks: str = "") -> Walk:
     if word.values is not None:
         told = ~np.isnan(word.values) & (step > 0)
         step[told] = word.values[told]
-    if scale is not None:
-        step *= scale
-    move: Complex = unit * step
+    with np.errstate(over="ignore", invalid="ignore"):
+        # What grows past all bounds is told below.
+        if scale is not None:
+            step *= scale
+        move: Complex = unit * step
     at: Complex = branches.sums(move) if branches else np.asarray(np.cumsum(move))
     if not np.isfinite(at[-1:]).all() or not np.isfinite(at).all():
         raise GeometryError("its steps grow past all bounds: expected a lower level")
@@ -196,7 +198,8 @@ def _factors(word: Word, symbol: str, usual: float, sums: Callable[[Array], Arra
         factor[told] = word.values[told]
     if not (factor > 0).all():
         raise GeometryError(f'a factor of {factor.min():g} at "{symbol}", expected one above 0')
-    return np.asarray(np.exp(sums(np.log(factor))))
+    with np.errstate(over="ignore"):
+        return np.asarray(np.exp(sums(np.log(factor))))
 
 
 def _strands(is_draw: Mask, is_move: Mask, branches: Branches | None) -> tuple[Indices, Indices]:

@@ -174,6 +174,7 @@ def test_a_grammar_makes_generation_after_generation() -> None:
         (lambda: Julia(samples=4000), "a grid of 4000 × 4000, more than 4,000,000"),
         (lambda: Julia(escape=300.0, c=(2.0, 2.0)), "all points escape"),
         (lambda: ShapeGrammar(rules=("inscrbe",)), 'rules[0] = "inscrbe": did you mean "inscribe"?'),
+        (lambda: ShapeGrammar(rules=("turn x",)), 'rules[0] = "turn x": expected one number behind the name'),
         (lambda: ShapeGrammar(rules=("inscribe 0",)), "expected a number other than 0"),
         (lambda: ShapeGrammar(rules=("corners",) * 12), "more than 20,000 shapes"),
         (lambda: ShapeGrammar(first=9), "first = 9, expected 0 to 3"),

@@ -9,6 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
+from batik_vector.errors import TooLargeError
+from batik_vector.geometry import work
 from batik_vector.geometry.generators.cells import merged
 from batik_vector.geometry.maps.affine import Affine
 
@@ -44,3 +46,11 @@ def test_round_ones_that_go_on_meet_at_their_edges(cells: np.ndarray, share: flo
 def test_a_round_cell_is_a_circle() -> None:
     (area,) = merged(np.ones((1, 1), bool), 1.0, 1e-4)
     assert area.area == pytest.approx(np.pi / 4, rel=1e-3)
+
+
+def test_cells_with_too_many_corners_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    checks = np.indices((40, 40)).sum(axis=0) % 2 == 0
+    assert len(merged(checks, 0.0, 0.01)) == 800
+    monkeypatch.setattr(work, "LIMIT", 3200 * work.PER_CELL_CORNER - 1)
+    with pytest.raises(TooLargeError, match="vertices to bend or overlay, more than fits"):
+        merged(checks, 0.0, 0.01)

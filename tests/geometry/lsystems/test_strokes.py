@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 import shapely
 
+from batik_vector.errors import TooLargeError
+from batik_vector.geometry import work
 from batik_vector.geometry.curves import LSystem
 from batik_vector.geometry.lsystems.contours import bodies
 from batik_vector.geometry.lsystems.lattice import on_lattice
@@ -97,3 +99,12 @@ def test_round_corners_are_arcs_that_keep_the_tolerance() -> None:
     assert area.area == pytest.approx(ring, rel=1e-2)
     (coarse,) = region(circle, 20 * TOLERANCE)
     assert shapely.get_num_coordinates(coarse) < shapely.get_num_coordinates(area)
+
+
+def test_strokes_that_cross_too_often_are_refused_before_they_are_welded(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(work, "LIMIT", 400_000.0)
+    monkeypatch.setattr("batik_vector.geometry.lsystems.contours.welded", None)
+    with pytest.raises(TooLargeError, match=r"cross about .* times to bend or overlay"):
+        region(LSystem(system="plant-weed", level=6, width=0.3, taper=0.9), 0.01)
