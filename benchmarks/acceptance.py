@@ -113,7 +113,7 @@ class Asked:
 def rows(results: Results, plan: Plan, said: str = "") -> list[Row]:
     """Return the rows of the acceptance list; ``said`` is what the page says by hand."""
     asked = Asked(results)
-    parts = (_svg, _dxf, _pdf, _three, _growth, _start, _slider, _motif, _library, _sweep)
+    parts = (_svg, _dxf, _pdf, _three, _growth, _start, _slider, _motif, _library, _sweep, _grown)
     return [*(row for part in parts for row in part(asked, plan)), _explained(results, said)]
 
 
@@ -260,3 +260,14 @@ def _sweep(asked: Asked, plan: Plan) -> Iterator[Row]:
     yield asked.faster(11, words, "sweep/1", "sweep/2", 1.8, "wall")
     yield asked.faster(11, "and ≥ 8× as fast as a shell's loop", "sweep/loop", "sweep/2", 8, "wall")
     yield asked.faster(11, "and ≥ 25× as fast as vsketch", "sweep/vsketch", "sweep/2", 25, "wall")
+
+
+def _grown(asked: Asked, plan: Plan) -> Iterator[Row]:
+    for name, level in (("hilbert", plan.hilbert), ("dragon", plan.dragon)):
+        words = f"{name} at level {level} to one welded stroke ≥ 5× faster than by shapely's buffer"
+        yield asked.faster(12, words, f"{name} stroked/shapely", f"{name} stroked/{BATIK}", 5)
+    words = f"hilbert at level {plan.hilbert} to its open line ≥ 50× faster than by lsys"
+    yield asked.faster(12, words, "hilbert walked/lsys", f"hilbert walked/{BATIK}", 50)
+    side = f"{plan.samples:,}"
+    words = f"a field of {side} × {side} samples to smooth rings ≥ 2× faster than matplotlib's contours"
+    yield asked.faster(12, words, "mandelbrot ringed/matplotlib", f"mandelbrot ringed/{BATIK}", 2)

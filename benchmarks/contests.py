@@ -92,6 +92,12 @@ class Plan:
     """Patterns in a library."""
     variants: int
     """Variants of a sweep."""
+    hilbert: int
+    """Level of Hilbert's curve: 9 writes 873,811 symbols."""
+    dragon: int
+    """Level of the dragon: 16 writes 131,071 symbols, beyond which others take minutes."""
+    samples: int
+    """Samples across and up a field whose rings are drawn."""
     rounds: int
     """How often everything runs."""
     starts: int
@@ -109,6 +115,9 @@ FULL = Plan(
     cloth=(1, 3, 10),
     patterns=10_000,
     variants=200,
+    hilbert=9,
+    dragon=16,
+    samples=2_000,
     rounds=5,
     starts=11,
 )
@@ -123,6 +132,9 @@ QUICK = Plan(
     cloth=(1,),
     patterns=200,
     variants=20,
+    hilbert=5,
+    dragon=8,
+    samples=200,
     rounds=2,
     starts=3,
 )
@@ -401,6 +413,43 @@ def sweep(plan: Plan) -> list[Contest]:
     ]
 
 
+def grown(plan: Plan) -> list[Contest]:
+    """L-systems to lines and to strokes, and a field to rings."""
+
+    def task(name: str, says: str, *words: str) -> Entrant:
+        return Entrant(name, says, own("growing", *words), True)
+
+    hilbert, dragon, samples = str(plan.hilbert), str(plan.dragon), str(plan.samples)
+    walked = str(PEERS / "python"), "-m", "benchmarks.peers.lsys_line", hilbert
+    contour = str(PEERS / "python"), "-m", "benchmarks.peers.matplotlib_contour", samples, "{folder}"
+    strokes = [
+        Contest(
+            f"{name} stroked",
+            (
+                task(BATIK, "batik_vector, `on_lattice`", "stroke", name, level),
+                task("shapely", "shapely, `buffer` of the same line", "buffer", name, level),
+            ),
+            plan.rounds,
+        )
+        for name, level in (("hilbert", hilbert), ("dragon", dragon))
+    ]
+    line = (
+        task(BATIK, "batik_vector", "line", "hilbert", hilbert),
+        Entrant("lsys", "lsys, `coords`", walked, True),
+    )
+    ringed = (
+        # Who comes first leaves the field for the others.
+        task("field", "the field itself, batik_vector", "field", samples, "{folder}"),
+        task(BATIK, "batik_vector, smooth rings", "rings", samples, "{folder}"),
+        Entrant("matplotlib", "matplotlib, `contour` of the same field", contour, True),
+    )
+    return [
+        Contest("hilbert walked", line, plan.rounds),
+        *strokes,
+        Contest("mandelbrot ringed", ringed, plan.rounds),
+    ]
+
+
 def facts(section: str, plan: Plan) -> list[Fact]:
     """Return what is to be found out about the files of a section."""
     if section == "pdf":
@@ -443,6 +492,7 @@ SECTIONS: Mapping[str, Callable[[Plan], list[Contest]]] = MappingProxyType(
         "motif": motif,
         "library": library,
         "sweep": sweep,
+        "grown": grown,
     }
 )
 """The sections by name, in the order in which they run."""

@@ -10,6 +10,7 @@ python -m benchmarks.growing rings SAMPLES FOLDER   such a field to smooth rings
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
@@ -67,16 +68,18 @@ def ringed(values: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> object:
     return found
 
 
+def _saved(samples: int, path: Path) -> None:
+    np.save(path, field(samples))
+
+
 def main() -> None:
     """Do what is asked, once warm."""
     task, name, last = sys.argv[1:4]
+    work: Callable[[], object]
     if task == "field":
-        np.save(Path(last) / "field.npy", field(int(name)))
-        return
-    if task == "rings":
-        values = (
-            np.load(Path(last) / "field.npy") if (Path(last) / "field.npy").exists() else field(int(name))
-        )
+        work = partial(_saved, int(name), Path(last) / "field.npy")
+    elif task == "rings":
+        values = np.load(Path(last) / "field.npy")
         ringed(values[:50, :50])
         work = partial(ringed, values)
     elif task == "line":

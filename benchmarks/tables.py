@@ -30,6 +30,7 @@ TITLES: Mapping[str, str] = MappingProxyType(
         "motif": "A drawing of one's own",
         "library": "The library",
         "sweep": "A sweep",
+        "grown": "L-systems and contours",
     }
 )
 
@@ -309,6 +310,19 @@ def sweep(contests: Sequence[Contest], results: Results) -> Iterator[str]:
     yield ""
 
 
+def grown(contests: Sequence[Contest], results: Results) -> Iterator[str]:
+    """Yield what lines, strokes and rings cost."""
+    for contest in contests:
+        body = []
+        for entrant in contest.entrants:
+            name = f"{contest.name}/{entrant.name}"
+            ratio = results.ratio(name, f"{contest.name}/{BATIK}")
+            shown = results.missing.get(name) or cost(results, name)
+            body.append((entrant.says, shown, NONE if ratio is None else times(ratio)))
+        yield from table((contest.name, "CPU", "ratio of CPU"), body)
+        yield ""
+
+
 SHOWN: Mapping[str, Callable[[Sequence[Contest], Results], Iterator[str]]] = MappingProxyType(
     {
         **dict.fromkeys(("svg", "pdf", "dxf", "three"), races),
@@ -323,6 +337,7 @@ SHOWN: Mapping[str, Callable[[Sequence[Contest], Results], Iterator[str]]] = Map
         "motif": motif,
         "library": library,
         "sweep": sweep,
+        "grown": grown,
     }
 )
 

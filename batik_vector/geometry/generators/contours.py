@@ -106,11 +106,14 @@ class _Grid:
         mine, other = row[saddle], column[saddle]
         corners = [self.value(mine + y, other + x) for y in (0, 1) for x in (0, 1)]
         case[saddle[np.mean(corners, axis=0) > self.level]] += 16
+        # No edge of the frame is crossed. So every crossed one is the lower side of one square and the upper
+        # side of another, or the left and the right one, and comes in the same order among those.
+        bits = [(case >> bit & 1).astype(bool) for bit in range(4)]
         sides = (
-            np.searchsorted(low, squares),
-            len(low) + np.searchsorted(left, at + 1),
-            np.searchsorted(low, squares + wide),
-            len(low) + np.searchsorted(left, at),
+            np.cumsum(bits[0] != bits[1]) - 1,
+            len(low) + np.cumsum(bits[1] != bits[2]) - 1,
+            np.cumsum(bits[3] != bits[2]) - 1,
+            len(low) + np.cumsum(bits[0] != bits[3]) - 1,
         )
         following = np.zeros(len(low) + len(left), np.int64)
         for kind in np.unique(case).tolist():
@@ -128,6 +131,8 @@ def smooth(points: Points, offsets: Indices, straight: NDArray[np.bool_]) -> Out
         offsets: where each begins, and the end.
         straight: points that stay where they are, with straight sides to others that do.
     """
+    if not straight.any():
+        return _bent(points, offsets)
     following = np.arange(len(points)) + 1
     following[offsets[1:] - 1] = offsets[:-1]
     leading = np.empty_like(following)
@@ -157,3 +162,22 @@ def smooth(points: Points, offsets: Indices, straight: NDArray[np.bool_]) -> Out
     xy = np.insert(flat, start[first], starts, axis=0)
     kind = np.insert(kind, start[first], MOVE)
     return Outline(xy, kind, np.ones(len(np.unique(ring)), bool))
+
+
+def _bent(points: Points, offsets: Indices) -> Outline:
+    """Return rings of which all points are control points."""
+    z = np.ascontiguousarray(points).view(np.complex128).ravel()
+    first, last = offsets[:-1], offsets[1:] - 1
+    after = np.append(z[1:], 0)
+    after[last] = z[first]
+    end = (z + after) / 2
+    begin = np.append(0, end[:-1])
+    begin[first] = end[last]
+    nodes = np.stack([begin + (z - begin) * (2 / 3), end + (z - end) * (2 / 3), end], axis=1).ravel()
+    place = np.arange(len(nodes)) + np.repeat(np.arange(1, len(offsets)), 3 * np.diff(offsets))
+    moves = 3 * first + np.arange(len(first))
+    flat = np.empty(len(nodes) + len(first), complex)
+    flat[place], flat[moves] = nodes, begin[first]
+    kinds = np.full(len(flat), CONTROL, np.uint8)
+    kinds[place[2::3]], kinds[moves] = CURVE, MOVE
+    return Outline(flat.view(np.float64).reshape(-1, 2), kinds, np.ones(len(first), bool))
