@@ -31,8 +31,8 @@ class Order(enum.Enum):
     LINES = enum.auto()
     """Lines in a good order for a pen; areas as the page gives them."""
     CONTOURS = enum.auto()
-    """The outlines of areas, each ring by itself, and lines, all together in a good order for a tool. All of
-    them are handed over as areas."""
+    """The outlines of areas, each ring by itself, and lines, those that meet end to end as one: all together
+    in a good order for a tool, and handed over as areas."""
 
 
 class Surface(Protocol):
@@ -100,7 +100,7 @@ def _in_order(
     from batik_vector.processes.order import contours, ordered
 
     if order is Order.CONTOURS:
-        return ordered(contours(chain(areas, lines))), iter(())
+        return ordered(contours(chain(areas, lines)), join=True), iter(())
     return areas, ordered(lines)
 
 

@@ -53,14 +53,16 @@ def contours(pieces: Iterable[Outlines]) -> Iterator[Outlines]:
             yield Outlines(points, ends, np.arange(len(ends)), closed)
 
 
-def ordered(pieces: Iterable[Outlines]) -> Iterator[Outlines]:
+def ordered(pieces: Iterable[Outlines], *, join: bool = False) -> Iterator[Outlines]:
     """Yield strokes in a good order, about ``PIECE`` vertices at a time.
 
     Args:
         pieces: one ring or polyline to a mark, with names or without.
+        join: whether strokes of which one begins where the other ends become one; names are lost then.
     """
     for batch in _batches(pieces):
-        yield from _pieces(in_order(batch))
+        strokes = in_order(batch)
+        yield from _pieces(joined(strokes) if join else strokes)
 
 
 def _batches(pieces: Iterable[Outlines]) -> Iterator[Outlines]:
@@ -148,6 +150,33 @@ def _drawn(strokes: Outlines, passed: Index, start: Index) -> Outlines:
     points = strokes.points.take(step + np.repeat(first, sizes), axis=0)
     names = [strokes.names[each] for each in sequence.tolist()] if len(strokes.names) else ()
     return replace(strokes, points=points, rings=rings, closed=closed, names=names, unfinished=False)
+
+
+def joined(strokes: Outlines) -> Outlines:
+    """Return strokes, without names, of which each begins elsewhere than the one before it ends.
+
+    Lines that follow one another without a way between are one; what comes back to its beginning is closed.
+
+    Args:
+        strokes: one ring or polyline to a mark, in order.
+    """
+    points, first, last = strokes.points, strokes.rings[:-1], strokes.rings[1:] - 1
+    goes_on = (points[first[1:]] == points[last[:-1]]).all(axis=1)
+    goes_on &= ~strokes.closed[1:] & ~strokes.closed[:-1]
+    if not goes_on.any():
+        return replace(strokes, names=())
+    heads = np.flatnonzero(np.append(True, ~goes_on))
+    tails = np.append(heads[1:], len(strokes)) - 1
+    many = tails > heads
+    size = last[tails] - first[heads] + 1 - (tails - heads)
+    # A line there and back encloses nothing.
+    shut = many & (points[first[heads]] == points[last[tails]]).all(axis=1) & (size > 3)
+    kept = np.ones(len(points), bool)
+    kept[first[1:][goes_on]] = False
+    kept[last[tails[shut]]] = False
+    rings = np.concatenate([[0], np.cumsum(size - shut)])
+    closed = strokes.closed[heads] | shut
+    return Outlines(points[kept], rings, np.arange(len(rings)), closed)
 
 
 def travel(strokes: Outlines) -> float:

@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import sys
 from dataclasses import replace
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +16,7 @@ from batik_vector import compile_recipe, load_recipe
 from batik_vector.artwork import page as pages
 from batik_vector.geometry.outlines import Outlines, of_polygons, to_polygons, together
 from batik_vector.processes import order as module
-from batik_vector.processes.order import contours, in_order, ordered, travel
+from batik_vector.processes.order import contours, in_order, joined, ordered, travel
 from tests.thorough import examples, long
 
 from .strokes import alike, box, line, parts_of, random_lines, spanning_tree, strokes
@@ -115,6 +116,53 @@ def test_contours_are_the_rings_without_moves_that_lead_nowhere() -> None:
         [[(1, 1), (2, 1)]],
     ]
     assert list(contours([strokes(line((5, 5), (5, 5)))])) == []
+
+
+def test_lines_that_meet_end_to_end_are_drawn_without_a_lift() -> None:
+    open_, shut = [(0, 0), (5, 0), (9, 1)], [(20, 0), (30, 0), (30, 9)]
+    pieces = strokes(
+        line(*open_[1:]),
+        line(shut[2], shut[0]),
+        line(shut[1], shut[0]),
+        line(*shut[1:]),
+        line(*open_[:2]),
+        box(9, 2, 2),
+    )
+    (found,) = ordered([pieces], join=True)
+    drawn = [(closed, part) for (closed, part, _) in alike(found)]
+    expected = alike(strokes(line(*open_), (True, shut), box(9, 2, 2)))
+    turned = alike(strokes(line(*open_), (True, shut[::-1]), box(9, 2, 2)))
+    assert drawn in [[each[:2] for each in way] for way in (expected, turned)]
+
+
+def test_a_line_there_and_back_stays_open() -> None:
+    (found,) = ordered([strokes(line((0, 0), (9, 0)), line((9, 0), (0, 0)))], join=True)
+    assert found.closed.tolist() == [False]
+    assert parts_of(joined(found)) == parts_of(found)
+    assert len(found.points) == 3
+
+
+@long
+@settings(max_examples=examples(60, 1200))
+@given(st.lists(st.tuples(*[st.tuples(st.integers(0, 3), st.integers(0, 3))] * 2), max_size=20))
+def test_joining_loses_and_adds_no_step(pairs: list[Any]) -> None:
+    pieces = strokes(*(line(a, b) for a, b in pairs if a != b))
+
+    def steps(drawn: Outlines) -> list[Any]:
+        points, rings = drawn.repeating()
+        parts = np.split(points, rings[1:-1]) if len(drawn) else []
+        return sorted(
+            tuple(sorted(map(tuple, pair.tolist())))
+            for part in parts
+            for pair in np.stack([part[:-1], part[1:]], axis=1)
+        )
+
+    found = list(ordered([pieces], join=True)) if len(pieces) else []
+    assert sorted(chain(*map(steps, found))) == steps(pieces)
+    for drawn in found:
+        ends = drawn.points[np.where(drawn.closed, drawn.rings[:-1], drawn.rings[1:] - 1)][:-1]
+        meet = (ends == drawn.points[drawn.rings[1:-1]]).all(axis=1)
+        assert not (meet & ~drawn.closed[1:] & ~drawn.closed[:-1]).any()
 
 
 def test_nothing_and_one_are_in_order() -> None:
