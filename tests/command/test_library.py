@@ -206,9 +206,10 @@ def test_what_lacks_features_is_measured_when_asked(own_library: Path) -> None:
 
     with Library(own_library) as library:
         library.add("dots", read_recipe(RECIPE.format(number=5)), measured=Measured())
-    assert "1 never measured" in call("library", "check")[1]
+    assert "dots" in told("library", "check")["library"][0]["unmeasured"]
+    assert "never measured: library check --measure" in call("library", "check")[1]
     assert "sound" in call("library", "check", "--measure")[1]
-    assert "measured" not in call("library", "check")[1]
+    assert told("library", "check")["library"][0]["unmeasured"] == []
 
 
 def test_damage_is_an_exit_code_and_a_report(own_library: Path) -> None:
