@@ -106,7 +106,9 @@ def in_order(strokes: Outlines) -> Outlines:
     start = strokes.rings[:-1].copy()
     ends = ends_of(strokes, start)
     # What lies in the same stroke, or in none, has an order of its own.
-    groups = np.unique(parent, return_inverse=True)[1].astype(np.intp)
+    used = np.zeros(len(parent) + 1, bool)
+    used[parent + 1] = True
+    groups = (np.cumsum(used) - 1)[parent + 1].astype(np.intp)
     among = chained(ends, groups)
     for going in range(GOINGS):
         among = improved(among, ends, groups)

@@ -37,8 +37,9 @@ def parents(strokes: Outlines) -> Index:
         return found
     area = _areas(strokes)
     shut = shut[np.argsort(area[shut], kind="stable")]
-    tree = shapely.STRtree(np.asarray(shapely.box(*bounds[shut].T.astype(float)), dtype=object))
-    boxes = np.asarray(shapely.box(*bounds.T.astype(float)), dtype=object)
+    # A line says as much of its bounds as a box, and is made in a third of the time.
+    boxes = np.asarray(shapely.linestrings(bounds.reshape(-1, 2, 2).astype(float)), dtype=object)
+    tree = shapely.STRtree(boxes[shut])
     regions = _Regions(strokes)
     pairs = list[tuple[Index, Index]]()
     asked = 0
@@ -103,7 +104,12 @@ class _Regions:
 
     def hold(self, region: Index, stroke: Index) -> NDArray[np.bool_]:
         """Return which strokes lie inside which regions, pair by pair: most of what is asked of each."""
-        new = np.unique(region[~self._there[region]])
+        if not len(region):
+            return np.empty(0, bool)
+        # np.unique would import all of masked arrays, which takes longer than most orders.
+        asked_for = np.zeros(len(self._there), bool)
+        asked_for[region] = True
+        new = np.flatnonzero(asked_for & ~self._there)
         if len(new):
             self._made[new] = to_polygons(self._strokes.taken(new))
             shapely.prepare(self._made[new])
