@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from batik_vector.command.library_options import as_json_option, file_option, report_of
+from batik_vector.command.options import workers_of
 from batik_vector.command.telling import collecting, faults_told, reported
-from batik_vector.errors import BatikError, ExportError, LibraryError, unknown_name
+from batik_vector.errors import ExportError, LibraryError, unknown_name
+from batik_vector.values import frozen
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -17,7 +19,10 @@ if TYPE_CHECKING:
     from batik_vector.library import Library
     from batik_vector.library.exchange import Incoming
     from batik_vector.library.measuring import Measured
+    from batik_vector.making.pool import Outcome
 
+WORTHWHILE = 6
+"""Recipes below which other processes take longer to begin than they save."""
 FORMATS = ("toml", "svg", "pdf", "dxf", "png", "zip")
 
 
@@ -29,8 +34,9 @@ FORMATS = ("toml", "svg", "pdf", "dxf", "png", "zip")
 @click.option(
     "-j",
     "processes",
-    type=click.IntRange(min=0),
+    type=click.IntRange(0, 256),
     default=0,
+    callback=workers_of,
     metavar="N",
     help="Processes.  [default: one a core]",
 )
@@ -79,18 +85,21 @@ def save_all(
     quiet: bool = False,
 ) -> None:
     """Measure recipes and save them; tell what does not compile, and note in the report what was saved."""
+    from batik_vector.library.measuring import Measured
+
     report.setdefault("patterns", [])
-    for each, measured in _measured(patterns, processes, quiet):
-        if isinstance(measured, BatikError):
+    for each, outcome in _measured(patterns, processes, quiet):
+        if outcome is not None and outcome.failure is not None:
             with faults_told(report):
-                raise measured
+                outcome.check(each.origin)
         else:
             # Where one cannot be saved, no other can: a full disk is told once.
+            measured = outcome.result if outcome is not None else Measured()
             report["patterns"].append(_saved(library, each, measured, tags, note))
 
 
 def _saved(
-    library: Library, each: Incoming, measured: Measured, tags: Sequence[str], note: str
+    library: Library, each: Incoming, measured: Measured | None, tags: Sequence[str], note: str
 ) -> dict[str, Any]:
     """Save a recipe, and say so."""
     notes = "\n".join((*each.notes, note)) if note else "\n".join(each.notes)
@@ -102,23 +111,40 @@ def _saved(
     return {"name": saved.name, "version": saved.number, "saved": saved.fresh, "origin": each.origin}
 
 
+@frozen
+class _Task:
+    """A recipe to be measured: its number, its text, which carries its drawings, and its source."""
+
+    number: int
+    text: str
+    source: str
+
+
+def _measure(task: _Task) -> Measured:
+    from batik_vector.library.measuring import measured_text
+
+    return measured_text(task.text, task.source)
+
+
 def _measured(
     patterns: Sequence[Incoming], processes: int, quiet: bool
-) -> Iterator[tuple[Incoming, Measured | BatikError]]:
-    """Yield each recipe with what was measured of it, in order; old versions are not measured."""
+) -> Iterator[tuple[Incoming, Outcome[_Task, Measured] | None]]:
+    """Yield each recipe with what came of measuring it, in order; old versions are not measured."""
     from tqdm import tqdm
 
-    from batik_vector.library.measuring import Measured, all_measured
+    from batik_vector.making.pool import outcomes
 
-    wanted = [number for number, each in enumerate(patterns) if each.newest]
-    work = [(patterns[number].recipe.source, patterns[number].origin) for number in wanted]
-    known: dict[int, Measured | BatikError] = {
-        number: Measured() for number, each in enumerate(patterns) if not each.newest
+    work = [
+        _Task(number, each.recipe.source, each.origin) for number, each in enumerate(patterns) if each.newest
+    ]
+    known: dict[int, Outcome[_Task, Measured] | None] = {
+        number: None for number, each in enumerate(patterns) if not each.newest
     }
     due = 0
-    with tqdm(total=len(wanted), delay=1, disable=quiet or None, leave=False) as bar:
-        for number, measured in all_measured(work, processes):
-            known[wanted[number]] = measured
+    workers = min(processes, len(work)) if len(work) >= WORTHWHILE else 1
+    with tqdm(total=len(work), delay=1, disable=quiet or None, leave=False) as bar:
+        for outcome in outcomes(_measure, work, workers):
+            known[outcome.task.number] = outcome
             bar.update()
             while due in known:
                 yield patterns[due], known.pop(due)

@@ -36,7 +36,7 @@ def format_names(_ctx: click.Context, _param: click.Parameter, texts: Sequence[s
     return names
 
 
-def _workers(_ctx: click.Context, _param: click.Parameter, number: int) -> int:
+def workers_of(_ctx: click.Context, _param: click.Parameter, number: int) -> int:
     """Return how many processes work: 0 stands for one on each core."""
     if number:
         return number
@@ -60,7 +60,7 @@ jobs_option = click.option(
     "--jobs",
     type=click.IntRange(0, 256),
     default=1,
-    callback=_workers,
+    callback=workers_of,
     metavar="N",
     help="Processes that work at a time; 0 is one for each core.  [default: 1]",
 )

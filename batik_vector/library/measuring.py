@@ -6,13 +6,11 @@ same marks, thinned to what a screen shows.
 
 from __future__ import annotations
 
-import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 from batik_vector import (
-    BatikError,
     MissingLibraryError,
     PngOptions,
     Profile,
@@ -138,44 +136,6 @@ def _thin_layer(layer: Layer, tolerance: float) -> Layer:
 def measured_text(text: str, source: str) -> Measured:
     """Measure a recipe that carries its drawings; see :func:`measured`."""
     return measured(read_recipe(text, source))
-
-
-def all_measured(
-    recipes: Sequence[tuple[str, str]], processes: int = 0
-) -> Iterator[tuple[int, Measured | BatikError]]:
-    """Measure many recipes, several at a time; yield each by its number when it is done, or what is wrong.
-
-    Args:
-        recipes: the text, which carries its drawings, and the source of each.
-        processes: how many work; as many as there are cores, when 0.
-    """
-    processes = min(processes or os.cpu_count() or 1, len(recipes))
-    if processes < 2 or len(recipes) < WORTHWHILE:
-        for number, (text, source) in enumerate(recipes):
-            yield number, _tried(text, source)
-        return
-    from concurrent.futures import ProcessPoolExecutor, as_completed
-    from multiprocessing import get_context
-
-    with ProcessPoolExecutor(processes, mp_context=get_context("spawn")) as pool:
-        work = {pool.submit(_tried, text, source): number for number, (text, source) in enumerate(recipes)}
-        try:
-            for done in as_completed(work):
-                yield work.pop(done), done.result()
-        finally:
-            # Whoever stops listening has no use for what has not begun.
-            pool.shutdown(cancel_futures=True)
-
-
-WORTHWHILE = 6
-"""Recipes below which other processes take longer to begin than they save."""
-
-
-def _tried(text: str, source: str) -> Measured | BatikError:
-    try:
-        return measured_text(text, source)
-    except BatikError as error:
-        return error
 
 
 def _png(page: Any) -> bytes:

@@ -13,6 +13,7 @@ import multiprocessing
 import os
 import signal
 from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
 from multiprocessing.connection import Connection, wait
 from typing import Any, Generic, TypeVar
 
@@ -44,14 +45,18 @@ class Outcome(Generic[Task, Result]):
     result: Result | None
     failure: Failure | None = None
 
-    def check(self) -> None:
+    def check(self, source: str = "") -> None:
         """Raise what a failure tells.
+
+        Args:
+            source: what the task was made of, where a fault does not say.
 
         Raises:
             BatikError: with the exit code of the error that it was.
         """
         if self.failure is not None:
-            error = RecipeError(self.failure.faults)
+            faults = self.failure.faults
+            error = RecipeError([each if each.source else replace(each, source=source) for each in faults])
             error.exit_code = self.failure.exit_code
             raise error
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +13,10 @@ import pytest
 
 from batik_vector import read_recipe
 from batik_vector.command.cli import cli
+from batik_vector.command.library_changes import _Task
+from batik_vector.errors import Fault
 from batik_vector.library import Library
+from batik_vector.making.pool import Failure, Outcome, outcomes
 from tests.calling import runner
 from tests.library.test_store import RECIPE
 
@@ -184,6 +188,26 @@ def test_many_recipes_are_measured_by_several_processes(desk: Path) -> None:
     assert [each["name"] for each in report["patterns"]] == [f"d{number}" for number in range(1, 8)]
     with Library() as library:
         assert [library.features(f"d{number}")["marks"] for number in range(1, 8)] == [1] * 7
+
+
+def test_a_process_that_dies_costs_its_recipe_alone(desk: Path) -> None:
+    (desk / "many").mkdir()
+    for number in range(1, 8):
+        (desk / "many" / f"d{number}.toml").write_text(RECIPE.format(number=number), encoding="utf-8")
+    died: Outcome[Any, Any] = Outcome(
+        _Task(2, "", "many/d3.toml"), None, Failure((Fault("the process was ended"),))
+    )
+
+    def dying(work: Any, tasks: Any, workers: int) -> Iterator[Any]:
+        assert workers == 2
+        yield from (died if each.task.number == 2 else each for each in outcomes(work, tasks))
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("batik_vector.making.pool.outcomes", dying)
+        report = told("library", "add", "many", "-j", "2", exit_code=2)
+    (fault,) = report["faults"]
+    assert (fault["source"], fault["message"]) == ("many/d3.toml", "the process was ended")
+    assert [each["name"] for each in report["patterns"]] == ["d1", "d2", "d4", "d5", "d6", "d7"]
 
 
 def test_likeness_to_a_file_needs_no_saving(desk: Path) -> None:

@@ -114,6 +114,8 @@ class Vine(Composed):
                 "or alternate = false"
             )
         if len(strands) * self.count > MOST:
+            if len(strands) > MOST:
+                raise GeometryError(f"curve: {len(strands):,} lines, expected at most {MOST:,} to grow along")
             words = f"count = {self.count} on {len(strands)} lines"
             raise GeometryError(f"{words}, expected at most {MOST // len(strands)}")
         self.parts()
