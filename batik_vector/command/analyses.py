@@ -69,7 +69,11 @@ def told(facts: dict[str, Any]) -> Iterator[str]:
 
 
 def _flower(facts: dict[str, Any]) -> Iterator[str]:
-    yield f"  {facts['marks']:,} marks of {facts['kinds']:,} shapes; symmetry {_group(facts)}"
+    marks, kinds = (
+        f"{facts[of]:,} {word}{'s' * (facts[of] != 1)}"
+        for of, word in (("marks", "mark"), ("kinds", "shape"))
+    )
+    yield f"  {marks} of {kinds}; symmetry {_group(facts)}"
     if facts["centre_mm"] is not None:
         yield f"  flower {_place(facts)}"
         yield from _layers(facts)

@@ -246,7 +246,8 @@ def _wishes(**given: Any) -> Wishes:
 def _tell_plan(planned: Sweep) -> None:
     for variant in planned.variants[:MOST_TOLD]:
         click.echo(f"{variant.name}  {'  '.join(variant.changes)}", err=True)
-    click.echo(f"{len(planned.variants):,} variants; nothing is written", err=True)
+    count = len(planned.variants)
+    click.echo(f"{count:,} variant{'s' * (count != 1)}; nothing is written", err=True)
 
 
 def _make(
