@@ -59,7 +59,6 @@ class Escape(Outlined):
         """Return c, or None where it is the point itself."""
         raise NotImplementedError
 
-    @functools.cached_property
     def _field(self) -> Array:
         half = self.span / 2
         x, y = self.centre
@@ -73,7 +72,7 @@ class Escape(Outlined):
 
     @functools.cached_property
     def _outline(self) -> Outline:
-        field = self._field
+        field = self._field()
         points, offsets = rings(field, self.escape)
         if not len(points):
             low, high = float(field.min()), float(field.max())

@@ -153,9 +153,9 @@ class LSystem(Turtle, Outlined):
         """Return its lines, in the middle of its strokes."""
         return self._outline
 
-    @functools.cached_property
+    @property
     def _walk(self) -> Walk:
-        return self.walk()
+        return _walked(self)
 
     @property
     def _unit(self) -> float:
@@ -182,3 +182,9 @@ class LSystem(Turtle, Outlined):
             walk.points / unit, walk.offsets, walk.widths, self.round, tolerance / unit
         )
         return bodies(points * unit, offsets, widths * self.width * unit, tolerance)
+
+
+@functools.lru_cache(maxsize=4)
+def _walked(curve: LSystem) -> Walk:
+    """Return what the turtle of a curve draws: kept for a moment only, since curves are kept for long."""
+    return curve.walk()

@@ -14,7 +14,7 @@ FAR = 1000.0
 """Beyond it a point is gone: so far out that broken steps have no seams."""
 
 
-@functools.lru_cache(maxsize=8)
+@functools.lru_cache(maxsize=2)
 def escapes(
     constant: complex | None,
     power: int,

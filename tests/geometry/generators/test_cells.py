@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given, settings
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
@@ -14,6 +14,9 @@ from batik_vector.geometry import work
 from batik_vector.geometry.generators.cells import merged
 from batik_vector.geometry.maps.affine import Affine
 
+SLOW = [HealthCheck.too_slow]
+"""Others may be at work on the machine."""
+
 GRIDS = arrays(np.bool_, st.tuples(st.integers(1, 7), st.integers(1, 7)))
 
 
@@ -21,7 +24,7 @@ def squares(cells: np.ndarray) -> shapely.Geometry:
     return shapely.union_all([shapely.box(x, y, x + 1, y + 1) for y, x in np.argwhere(cells)])
 
 
-@settings(max_examples=60, deadline=None, derandomize=True)
+@settings(max_examples=60, deadline=None, derandomize=True, suppress_health_check=SLOW)
 @given(GRIDS)
 def test_sharp_cells_are_their_union(cells: np.ndarray) -> None:
     areas = merged(cells, 0.0, 0.01)
@@ -32,7 +35,7 @@ def test_sharp_cells_are_their_union(cells: np.ndarray) -> None:
     assert len(areas) == (~shapely.is_empty(shrunk)).sum()
 
 
-@settings(max_examples=40, deadline=None, derandomize=True)
+@settings(max_examples=40, deadline=None, derandomize=True, suppress_health_check=SLOW)
 @given(GRIDS, st.floats(0.1, 1.0))
 def test_round_ones_that_go_on_meet_at_their_edges(cells: np.ndarray, share: float) -> None:
     rows, columns = cells.shape

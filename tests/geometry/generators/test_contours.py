@@ -5,12 +5,15 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given, settings
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from batik_vector.geometry.generators.contours import rings, smooth
 from batik_vector.geometry.paths.sampling import sampled
+
+SLOW = [HealthCheck.too_slow]
+"""Others may be at work on the machine."""
 
 FIELDS = arrays(
     np.float64, st.tuples(st.integers(2, 8), st.integers(2, 8)), elements=st.floats(-1, 1, width=16)
@@ -30,7 +33,7 @@ def test_a_cones_contour_is_its_circle() -> None:
     assert shapely.LinearRing(points).is_ccw
 
 
-@settings(max_examples=80, deadline=None, derandomize=True)
+@settings(max_examples=80, deadline=None, derandomize=True, suppress_health_check=SLOW)
 @given(FIELDS, st.floats(-0.9, 0.9))
 def test_every_sample_is_on_its_side_of_the_rings(field: np.ndarray, level: float) -> None:
     points, offsets = rings(field, level)

@@ -5,11 +5,14 @@ from __future__ import annotations
 import contextlib
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from batik_vector.errors import GeometryError
 from batik_vector.geometry.lsystems.grammar import Module, grammar_of
+
+SLOW = [HealthCheck.too_slow]
+"""Others may be at work on the machine."""
 
 
 def test_numbers_of_symbols_are_lines_in_the_number_rewritten() -> None:
@@ -57,7 +60,7 @@ def test_what_is_no_grammar_is_told(axiom: str, rules: list[str], words: str) ->
     assert words in str(error.value)
 
 
-@settings(max_examples=60, deadline=None, derandomize=True)
+@settings(max_examples=60, deadline=None, derandomize=True, suppress_health_check=SLOW)
 @given(st.text(alphabet="F+-[]() ->s:2/*.X", max_size=40), st.text(alphabet="F+-[]()2.X", max_size=20))
 def test_any_text_is_read_or_refused(rule: str, axiom: str) -> None:
     with contextlib.suppress(GeometryError):

@@ -7,13 +7,16 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from batik_vector.errors import GeometryError
 from batik_vector.geometry.lsystems.expansion import expanded
 from batik_vector.geometry.lsystems.grammar import grammar_of
 from batik_vector.geometry.lsystems.turtle import Gait, Walk, walked
+
+SLOW = [HealthCheck.too_slow]
+"""Others may be at work on the machine."""
 
 
 def walk(axiom: str, gait: Gait, marks: str = "") -> Walk:
@@ -51,7 +54,7 @@ def balanced(word: str) -> str:
     return out + "]" * depth + "F"
 
 
-@settings(max_examples=80, deadline=None, derandomize=True)
+@settings(max_examples=80, deadline=None, derandomize=True, suppress_health_check=SLOW)
 @given(st.text(alphabet='FFFf+-|[]"', max_size=40).map(balanced), st.sampled_from([90.0, 60.0, 25.7, 0.0]))
 def test_the_steps_are_those_of_a_turtle_with_a_stack(word: str, angle: float) -> None:
     gait = Gait(angle, 30, 0.8, 0.9)
