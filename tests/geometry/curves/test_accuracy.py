@@ -60,7 +60,7 @@ EXAMPLES: list[Curve] = [
     Blade(),
     Blade(bend=70, lean=0.6, teeth=7),
     Blade(1, 0.1, 0.35, 3),
-    Butterfly(),
+    Butterfly(fringe=0.0, level=0.5),
     Butterfly(1.0, 3.0, 0.0, -0.4),
     Polygon(7),
     Star(5, 1, 0.4),
