@@ -32,7 +32,7 @@ test-clients: $(TOOLS_READY) $(CLIENTS_READY) ## open the files in Inkscape, Lib
 test-long: $(TOOLS_READY) ## run the random tests with many more examples
 	BATIK_LONG=1 $(PY) -m pytest $(WORKERS) -rs -m 'long and not clients'
 
-test-pythons: ## lint and test on every Python from 3.11 on that this machine has
+test-pythons: ## lint and test on PYTHON and on the newest that this machine has; ALL=1: on every one from 3.11 on
 	@tools/pythons.sh lint test
 
 test-lowest: ## test with the oldest versions of all that pyproject.toml asks for

@@ -24,8 +24,13 @@ found() {
     done
 }
 
-# The first of each minor version: the one that PYTHON names comes before all others.
+# The first of each minor version: the one that PYTHON names comes before all others. Of these that one and the
+# newest, between which the others lie; with ALL=1 all of them.
 mapfile -t pythons < <(found | awk '{ split($1, part, "."); if (!seen[part[1] "." part[2]]++) print }')
+if [ -z "${ALL:-}" ] && [ ${#pythons[@]} -gt 2 ]; then
+    newest=$(printf '%s\n' "${pythons[@]:1}" | sort -V | tail -n 1)
+    pythons=("${pythons[0]}" "$newest")
+fi
 if [ ${#pythons[@]} -eq 0 ]; then
     echo "pythons: none from 3.11 on was found" >&2
     exit 1
