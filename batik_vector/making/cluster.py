@@ -87,10 +87,13 @@ def _threads(client: Any, scheduler: str) -> int:
     except (OSError, TimeoutError) as error:
         raise ExportError(f"--scheduler {scheduler}: no worker has come within {PATIENCE} s") from error
     try:
-        versions = client.run(version)
+        # A worker that dies this moment has no say.
+        versions = client.run(version, on_error="return")
     except ImportError as error:
         raise ExportError(f"--scheduler {scheduler}: a worker has no batik-vector: {error}") from error
     for worker, found in sorted(versions.items()):
+        if isinstance(found, OSError):
+            continue
         if found != __version__:
             raise ExportError(
                 f"--scheduler {scheduler}: {worker} has version {found}, expected {__version__}"

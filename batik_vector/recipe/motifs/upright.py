@@ -51,7 +51,7 @@ class LotusPetals(Plate):
 
 
 @frozen(kw_only=True)
-class Lines(Isen):
+class PetalLines(Isen):
     """Lines in a petal, from its base on and apart."""
 
     count: Annotated[int, Between(0, 9), Says("lines; 0 leaves them out")] = 3
@@ -70,7 +70,7 @@ class Lotus(Composed):
     heart: Annotated[Plate, Says("look of the middle petal, if it names an ink")] = field(
         default_factory=Plate
     )
-    vein: Annotated[Lines, Says("the lines in the petals")] = field(default_factory=Lines)
+    vein: Annotated[PetalLines, Says("the lines in the petals")] = field(default_factory=PetalLines)
     sepal: Annotated[Plate, Says("look of the small leaves beneath")] = field(default_factory=Plate)
 
     def compose(self) -> Iterator[Keyed]:
