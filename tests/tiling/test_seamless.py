@@ -98,6 +98,20 @@ def cuts(recipe: Recipe) -> bool:
     )
 
 
+def _off_the_edge(line: shapely.LineString, axis: int) -> list[tuple[float, ...]]:
+    """Where a line ends without running along an edge, or turns off from one."""
+    points = list(line.coords)
+    found = []
+    for number, point in enumerate(points):
+        beside = points[max(number - 1, 0) : number] + points[number + 1 : number + 2]
+        along = [other[axis] == point[axis] for other in beside]
+        if not line.is_closed and number in (0, len(points) - 1):
+            found += [point] * (not any(along))
+        elif len(along) == 2 and along[0] != along[1]:
+            found.append(point)
+    return found
+
+
 def assert_line_ends_meet(layer: Layer, cell: Cell) -> None:
     """Lines leave by an edge where others come in by the opposite one.
 
@@ -107,14 +121,9 @@ def assert_line_ends_meet(layer: Layer, cell: Cell) -> None:
     (_, slip_y), (slip_x, _) = cell.lattice
     size = round(cell.width * 1000), round(cell.height * 1000)
     for axis, slip in ((0, slip_y), (1, slip_x)):
-        # A stretch along an edge is drawn on one side only, and so are its ends.
-        ends = [
-            line.coords[at]
-            for line in layer.lines
-            if not line.is_closed
-            for at, beside in ((0, 1), (-1, -2))
-            if line.coords[at][axis] != line.coords[beside][axis]
-        ]
+        # A stretch along an edge is drawn on one side only, and so are its ends; where a line turns off from
+        # one, the line that goes on beyond the seam begins.
+        ends = [point for line in layer.lines for point in _off_the_edge(line, axis)]
         here = [round(p[1 - axis] * 1000) for p in ends if p[axis] == 0]
         there = [round(p[1 - axis] * 1000) for p in ends if round(p[axis] * 1000) == size[axis]]
         inner = size[1 - axis]
