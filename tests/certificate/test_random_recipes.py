@@ -11,7 +11,7 @@ from batik_vector.making.promised import asked_group
 from batik_vector.recipe.loading import read_recipe
 from tests.random_recipes import recipe_text
 from tests.thorough import examples, long
-from tests.tiling.test_seamless import NO_TILE
+from tests.tiling.test_seamless import NO_TILE, TOO_MUCH
 
 STRIPS = (324, 844, 1182)
 """Marks cut to a region whose edge lies on the seam: a lap over it stood there as a strip of ink."""
@@ -30,9 +30,6 @@ HOLES = (445, 1374, 125)
 
 ROUNDED = (1342,)
 """Gaps that missed the tolerance at some corners and not at their images, as GEOS rounds their chords."""
-
-TOO_MUCH = ("more than fits", "past the limit")
-"""In what a recipe is told whose work is refused."""
 
 SPREAD = range(7, 2000, 47)
 

@@ -31,6 +31,8 @@ many = settings(
 )
 
 
+TOO_MUCH = ("more than fits", "past the limit")
+"""In what a recipe is told whose work is refused."""
 NO_TILE = (
     "nothing is left",
     "nothing that could be tossed",
@@ -44,8 +46,9 @@ def compiled(recipe: Recipe) -> Artwork:
     try:
         return compile_recipe(recipe)
     except RecipeError as error:
-        # Everything may lie under a mark that only cuts, or a toss find no room or nothing to toss.
-        assume(not any(words in str(error) for words in NO_TILE))
+        # Everything may lie under a mark that only cuts, a toss find no room or nothing to toss, or the work be
+        # more than a compile may do.
+        assume(not any(words in str(error) for words in (*NO_TILE, *TOO_MUCH)))
         raise
 
 
