@@ -86,7 +86,7 @@ def covered(shape: shapely.Geometry, on_cloth: Affine, recipe: Recipe, artwork: 
 
 @long
 @settings(
-    max_examples=examples(5, 1000),
+    max_examples=examples(5, 300),
     deadline=None,
     derandomize=True,
     phases=[Phase.explicit, Phase.generate],

@@ -46,8 +46,8 @@ def compiled(recipe: Recipe) -> Artwork:
     try:
         return compile_recipe(recipe)
     except RecipeError as error:
-        # Everything may lie under a mark that only cuts, a toss find no room or nothing to toss, or the work be
-        # more than a compile may do.
+        # Everything may lie under a mark that only cuts, a toss find no room or nothing to toss, or the work
+        # be more than a compile may do.
         assume(not any(words in str(error) for words in (*NO_TILE, *TOO_MUCH)))
         raise
 
