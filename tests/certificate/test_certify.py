@@ -58,7 +58,7 @@ def test_samples_pass(name: str, group: str) -> None:
 
 
 TURNED = ("p4",)
-"""Where more examples find coarse stripes of which the certificate tells a turn of 0.11 degrees at the seam."""
+"""Where more examples find coarse stripes of which the certificate tells a turn of 0.11° at the seam."""
 
 
 @long
