@@ -92,7 +92,8 @@ def generations(sides: int, radius: float, rules: Sequence[ShapeRule]) -> list[C
         if total > MOST_SHAPES:
             raise TooLargeError(f"rules make more than {MOST_SHAPES:,} shapes: expected fewer of them")
     turn = np.pi / 2 + np.pi / sides
-    shapes = radius * np.exp(1j * (turn + 2 * np.pi * np.arange(sides) / sides))[None]
+    angles = turn + 2 * np.pi * np.arange(sides) / sides
+    shapes: Complex = np.asarray(radius * np.exp(1j * angles), np.complex128)[None]
     found = [shapes]
     for rule in rules:
         shapes = _made(shapes, rule)
