@@ -34,7 +34,7 @@ from tools.house import (
     room_of,
 )
 
-MOST_FILES, MOST_ROOMS, FULL = 10, 16, 26
+MOST_FILES, MOST_ROOMS, FULL = 10, 18, 26
 """How many files and rooms the package's top may hold, and how many files a room."""
 
 MODULES = modules()

@@ -34,7 +34,7 @@ FLOORS: Floors = _floors(
     "_version values patterns",
     "errors units",
     "fields",
-    "geometry",
+    "geometry machines",
     "artwork",
     "processes",
     "tiling export",

@@ -28,6 +28,8 @@ from batik_vector.geometry.curves import CURVES, AttractorMap, FractalName, Orig
 from batik_vector.geometry.maps import VARIATIONS
 from batik_vector.geometry.regions import FillRule
 from batik_vector.library.features import FEATURES
+from batik_vector.machines import Limits, Machine, Motion, Tool
+from batik_vector.processes.options import PROCESSES
 from batik_vector.recipe.border import BorderSpec, Corner, Ends, Facing, RailSpec
 from batik_vector.recipe.drawing import Dressing, Svg
 from batik_vector.recipe.lsystem import Grown, Growth
@@ -283,6 +285,11 @@ def page() -> str:
     lines += section("Terms of a map", Term)
     lines += catalogue("Variations", "`kind` of the `variation` of a term", VARIATIONS)
     lines += catalogue("`[[output]]`", "`format`", OUTPUTS)
+    lines += catalogue("`process` of an output", "`kind`", PROCESSES)
+    lines += section("Machines' profiles", Machine, 2)
+    profile: dict[str, type] = {"tool": Tool, "motion": Motion, "limits": Limits}
+    for key, table_of in profile.items():
+        lines += section(f"`[{key}]`", table_of)
     return "\n".join(lines).rstrip() + "\n"
 
 

@@ -176,11 +176,15 @@ class Layer:
 
 @frozen
 class Provenance:
-    """Where a file comes from: enough to make it again. ``recipe`` is the recipe's TOML text."""
+    """Where a file comes from: enough to make it again.
+
+    ``recipe`` is the recipe's TOML text; ``processes`` are what the page went through for a machine.
+    """
 
     recipe: str = ""
     seed: int = 0
     version: str = ""
+    processes: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         check(self)
@@ -191,12 +195,14 @@ class Plate:
     """What one layer of a page holds: whether there are any areas and any lines.
 
     A ``guide`` is no ink: marks for those who print and cut, outside the drawing, which plotters skip.
+    ``pen`` is the number of the pen that draws it; where it is 0, the one after the layer's below.
     """
 
     ink: Ink
     areas: bool = True
     lines: bool = True
     guide: bool = False
+    pen: int = 0
 
 
 @frozen

@@ -122,6 +122,14 @@ def cli(library: str | None) -> None:
     metavar="FORMAT,…",
     help=f"{', '.join(FORMATS)}.  [default: what the recipe asks for, or svg]",
 )
+@click.option(
+    "--process",
+    "processes",
+    multiple=True,
+    metavar="WORDS",
+    help='What a machine needs done first, as in "cut kerf=0.15mm"; several are done in turn.',
+)
+@click.option("--machine", metavar="NAME", help="The machine it is for: a profile's name, or FILE.toml.")
 @set_option
 @jobs_option
 @json_option
@@ -129,6 +137,8 @@ def compile_command(
     recipes: Sequence[str],
     folder: str,
     formats: Sequence[str],
+    processes: Sequence[str],
+    machine: str | None,
     overrides: Sequence[str],
     jobs: int,
     as_json: bool,
@@ -145,7 +155,8 @@ def compile_command(
 
     collecting()
     with reported(as_json) as report:
-        work, lacking = ready(planned(read_jobs(matching(recipes), overrides), Path(folder), formats))
+        called = _called(processes, machine)
+        work, lacking = ready(planned(read_jobs(matching(recipes), overrides), Path(folder), formats, called))
         for done in _made(work, jobs, as_json, report):
             report["recipes"].append(done)
             _tell_files(done)
@@ -153,6 +164,20 @@ def compile_command(
             # What can be made is made, and this is the last that people read.
             with faults_told(report):
                 raise error
+
+
+def _called(processes: Sequence[str], machine: str | None) -> dict[str, Any]:
+    """Return the keys of outputs that a call sets for all files."""
+    called: dict[str, Any] = {}
+    if processes:
+        from batik_vector.recipe.reading.called_processes import read_processes
+
+        called["process"] = read_processes(processes)
+    if machine is not None:
+        from batik_vector.recipe.reading.machines import read_machine
+
+        called |= {"machine": machine, "machine_profile": read_machine(machine)}
+    return called
 
 
 def _made(work: Sequence[Job], workers: int, quiet: bool, report: dict[str, Any]) -> Iterator[dict[str, Any]]:

@@ -42,6 +42,7 @@ class _FoundError(Exception):
 def xml_fields(provenance: Provenance) -> Iterator[tuple[str, str]]:
     """Yield (element, text) for the XML formats; what XML cannot hold is base64 and named so."""
     for name, value in (
+        *(("process", each) for each in provenance.processes),
         ("version", provenance.version),
         ("seed", str(provenance.seed)),
         ("recipe", provenance.recipe),
@@ -54,10 +55,14 @@ def xml_fields(provenance: Provenance) -> Iterator[tuple[str, str]]:
 
 def ascii_line(provenance: Provenance) -> str:
     """Return a provenance as one line of ASCII."""
-    return json.dumps(
-        {"version": provenance.version, "seed": provenance.seed, "recipe": provenance.recipe},
-        ensure_ascii=True,
-    )
+    values: dict[str, Any] = {
+        "version": provenance.version,
+        "seed": provenance.seed,
+        "recipe": provenance.recipe,
+    }
+    if provenance.processes:
+        values["processes"] = provenance.processes
+    return json.dumps(values, ensure_ascii=True)
 
 
 def ascii_chunks(provenance: Provenance) -> list[str]:
@@ -114,7 +119,10 @@ def _from_line(line: str) -> Provenance:
         raise ValueError("its provenance is damaged") from None
     if not (isinstance(recipe, str) and isinstance(version, str) and isinstance(seed, int)):
         raise ValueError("its provenance is damaged")
-    return Provenance(recipe, seed, version)
+    processes = values.get("processes", [])
+    if not (isinstance(processes, list) and all(isinstance(each, str) for each in processes)):
+        raise ValueError("its provenance is damaged")
+    return Provenance(recipe, seed, version, tuple(processes))
 
 
 class _XmlReader:
@@ -122,6 +130,7 @@ class _XmlReader:
 
     def __init__(self) -> None:
         self.values: dict[str, str] = {}
+        self.processes: list[str] = []
         self._name = ""
         self._parts: list[str] = []
         self._length = 0
@@ -145,7 +154,12 @@ class _XmlReader:
 
     def _start(self, name: str, attributes: dict[str, str]) -> None:
         space, _, local = name.rpartition(" ")
-        if space == NAMESPACE and local.removesuffix(BASE64) in ("recipe", "seed", "version"):
+        if space == NAMESPACE and local.removesuffix(BASE64) in (
+            "recipe",
+            "seed",
+            "version",
+            "process",
+        ):
             self._name, self._parts, self._length = local, [], 0
 
     def _text(self, words: str) -> None:
@@ -160,8 +174,11 @@ class _XmlReader:
             value = "".join(self._parts)
             if self._name.endswith(BASE64):
                 value = base64.b64decode(value, validate=True).decode("utf-8", "surrogatepass")
-            self.values[self._name.removesuffix(BASE64)] = value
-            self._name = ""
+            name, self._name = self._name.removesuffix(BASE64), ""
+            if name == "process":
+                self.processes.append(value)
+                return
+            self.values[name] = value
             if len(self.values) == 3:
                 raise _FoundError
 
@@ -175,7 +192,7 @@ def _from_xml(data: bytes) -> Provenance | None:
     seed = values.get("seed", "0")
     if not re.fullmatch(r"-?[0-9]{1,4000}", seed):
         raise ValueError("its seed is no whole number")
-    return Provenance(values["recipe"], int(seed), values.get("version", ""))
+    return Provenance(values["recipe"], int(seed), values.get("version", ""), tuple(reader.processes))
 
 
 def _from_pdf(data: bytes) -> Provenance | None:

@@ -67,15 +67,18 @@ def walk(page: Page, surface: Surface, order: Order = Order.GIVEN) -> None:
     Args:
         page: what is drawn.
         surface: what draws it.
-        order: of the marks of each ink; the order of inks is always that of painting.
+        order: of the marks of each ink; the order of inks is always that of painting, and what a process
+            has put in order stays as it is.
 
     Raises:
         ExportError: where a coordinate is not finite or out of range, or a mark is of the wrong kind.
     """
+    if page.provenance.processes:
+        order = Order.GIVEN
     surface.begin(page)
     pen = GUIDE_PEN
     for number, plate in enumerate(page.plates):
-        pen += not plate.guide
+        pen = pen if plate.guide else plate.pen or pen + 1
         surface.ink(plate.ink, GUIDE_PEN if plate.guide else pen)
         areas, lines = (_checked(pieces) for pieces in (page.areas(number), page.lines(number)))
         if order is not Order.GIVEN:

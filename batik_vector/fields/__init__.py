@@ -6,6 +6,7 @@ from batik_vector.fields.fitting import bound, check, given, shown
 from batik_vector.fields.marks import (
     HIDDEN,
     TAG,
+    Alone,
     Between,
     Colour,
     Converted,
@@ -25,6 +26,7 @@ from batik_vector.fields.marks import (
 __all__ = [
     "HIDDEN",
     "TAG",
+    "Alone",
     "Between",
     "Colour",
     "Converted",

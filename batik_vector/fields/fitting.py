@@ -18,7 +18,17 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import Annotated, Any, Literal, TypeAlias
 
 from batik_vector.errors import BatikError, GeometryError, unknown_name
-from batik_vector.fields.marks import Between, Converted, Instead, LengthUnit, OneOf, Several, Text, hint_of
+from batik_vector.fields.marks import (
+    Alone,
+    Between,
+    Converted,
+    Instead,
+    LengthUnit,
+    OneOf,
+    Several,
+    Text,
+    hint_of,
+)
 from batik_vector.units import parse_length
 from batik_vector.values import defaults
 
@@ -151,6 +161,8 @@ def _fit_of(hint: Any, marks: tuple[Any, ...] = ()) -> Fit:
             return _parsed(mark.parse, mark.expected)
         if isinstance(mark, Instead):
             return _instance(hint, mark.expected)
+        if isinstance(mark, Alone):
+            return _alone(_fit_of(hint))
         if isinstance(mark, OneOf):
             return _instance(hint, f"a {mark.what}, such as {next(iter(mark.load().values())).__name__}(…)")
     rest = _without_none(hint)
@@ -179,6 +191,10 @@ def _fit_of(hint: Any, marks: tuple[Any, ...] = ()) -> Fit:
 
 def _any(value: Any) -> Any:
     return value
+
+
+def _alone(fit: Fit) -> Fit:
+    return lambda value: fit(Alone.listed(value))
 
 
 def _or_none(fit: Fit, hint: Any) -> Fit:

@@ -116,6 +116,24 @@ class Several:
 
 
 @frozen
+class Alone:
+    """Marks a list of tables of which a single one may stand bare: ``process = { kind = "cut" }``."""
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Callable[[Any], Any]) -> Any:
+        """Make a list of a bare table."""
+        from pydantic_core import core_schema
+
+        return core_schema.no_info_before_validator_function(self.listed, handler(source))
+
+    @staticmethod
+    def listed(value: Any) -> Any:
+        """Return a bare table, or a value that is no list, as the only member of a tuple."""
+        if isinstance(value, list | tuple):
+            return tuple(value)
+        return value if isinstance(value, str | int | float | bool) or value is None else (value,)
+
+
+@frozen
 class Instead:
     """Marks an argument with what is expected in better words than the name of its class."""
 

@@ -6,7 +6,7 @@ import contextlib
 import glob
 import os
 import time
-from collections.abc import Callable, Container, Iterator, Sequence
+from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
@@ -18,6 +18,7 @@ from batik_vector.artwork import Artwork, Layer, Page
 from batik_vector.compiling.compiler import compile_cloth, compile_recipe
 from batik_vector.errors import ExportError, Fault, GeometryError, MissingLibraryError, RecipeError, SeamError
 from batik_vector.export import FORMATS, write_all_whole, write_page
+from batik_vector.machines.profile import Machine
 from batik_vector.recipe.drawing import Svg
 from batik_vector.recipe.loading import load_recipe, located
 from batik_vector.recipe.model import OutputSpec, Recipe
@@ -73,13 +74,16 @@ def matching(sources: Sequence[str]) -> list[str]:
     return found
 
 
-def planned(jobs: Sequence[Job], folder: Path, formats: Sequence[str] = ()) -> list[Job]:
+def planned(
+    jobs: Sequence[Job], folder: Path, formats: Sequence[str] = (), called: Mapping[str, Any] | None = None
+) -> list[Job]:
     """Return jobs with the files each of them makes.
 
     Args:
         jobs: as read.
         folder: where all files go.
         formats: which formats are made; when left out those that the recipe asks for, or else SVG.
+        called: keys of outputs that the call sets for all of them.
 
     Raises:
         RecipeError: where two files would have the same name, or an output asks for what the recipe has not.
@@ -97,6 +101,7 @@ def planned(jobs: Sequence[Job], folder: Path, formats: Sequence[str] = ()) -> l
                 faults.append(fault)
                 continue
             path = folder / _file_name(job, output)
+            output = replace(output, **called) if called else output
             place = os.path.normcase(path)
             if place in taken:
                 faults.append(_twice(path, taken[place], job, output))
@@ -225,6 +230,10 @@ def _on_behalf(job: Job, key: str = "") -> Iterator[None]:
     except GeometryError as error:
         raise located(RecipeError([Fault(str(error), key)]), job.source, job.recipe.source) from error
     except RecipeError as error:
+        if key:
+            error = RecipeError(
+                [each if each.source else replace(each, key=f"{key}.{each.key}") for each in error.faults]
+            )
         raise located(error, job.source, job.recipe.source, job.overrides) from error
 
 
@@ -239,14 +248,36 @@ def made(job: Job, tell: Callable[[str], None]) -> Artwork:
         return compile_recipe(job.recipe, progress=tell)
 
 
-def render_output(page: Page, output: OutputSpec, sink: BinaryIO) -> None:
+def render_output(page: Page, output: OutputSpec, sink: BinaryIO) -> Mapping[str, Any]:
     """Write a file: a cloth, or the tile repeated or carried beyond its edges as the output asks.
 
     What the compiler made is in the normal form, and is not asked again.
+
+    Returns:
+        What the processes that it went through have to report.
     """
     if isinstance(page, Artwork):
         page = _set_out(page, getattr(output, "repeat", (1, 1)), getattr(output, "bleed", 0.0))
+    facts: dict[str, Any] = {}
+    for number, process in enumerate(output.process):
+        with _keyed(f"process[{number}]" if len(output.process) > 1 else "process"):
+            prepared = process.apply(page, output.machine_profile or Machine())
+        facts |= prepared.facts
+        page = prepared
     write_page(page, sink, output.format, output.options, check=False)
+    return facts
+
+
+@contextmanager
+def _keyed(key: str) -> Iterator[None]:
+    """Give what a process finds wrong with one of its own keys as a fault of that key."""
+    try:
+        yield
+    except GeometryError as error:
+        from batik_vector.recipe.reading.faults import field_first
+
+        name, words = field_first(str(error))
+        raise RecipeError([Fault(words, f"{key}.{name}" if name else key)]) from error
 
 
 def _set_out(tile: Artwork, repeat: tuple[int, int], bleed: float) -> Page:
@@ -310,7 +341,7 @@ def _writer(
         begun = time.perf_counter()
         tell(f"writing {path.name}")
         with _on_behalf(job, _key_of(job, output)):
-            render_output(page, output, sink)
+            facts = render_output(page, output, sink)
         reports.append(
             {
                 "path": str(path),
@@ -318,6 +349,7 @@ def _writer(
                 "bytes": sink.tell(),
                 "size_mm": _size(page, output),
                 "seconds": round(time.perf_counter() - begun, 3),
+                **({"process": facts} if output.process else {}),
             }
         )
 

@@ -7,21 +7,22 @@ fails is pydantic asked what is wrong, and the line of each key looked up.
 from __future__ import annotations
 
 import os
-import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from batik_vector.errors import Fault, RecipeError
+from batik_vector.errors import RecipeError
 from batik_vector.fields import given
 from batik_vector.recipe.drawing import Svg
 from batik_vector.recipe.model import Recipe
 from batik_vector.recipe.reading.builder import UnsureError, built
-from batik_vector.recipe.reading.limits import MAX_DEPTH, deep_key, odd_numbers
-from batik_vector.recipe.reading.sources import MAX_TEXT, parted, read_text, scheme_of, with_carried
+from batik_vector.recipe.reading.sources import parted, read_text, scheme_of, with_carried
+from batik_vector.recipe.reading.tables import tables_of
 
 if TYPE_CHECKING:
     from batik_vector.recipe.reading.overrides import Override
+
+EMPTY = 'a recipe: "batik-vector new" writes one to begin with'
 
 
 def load_recipe(path: str | os.PathLike[str], overrides: Sequence[str] = ()) -> Recipe:
@@ -68,7 +69,7 @@ def read_recipe(
     text, carried = parted(text.replace("\r\n", "\n"))
     carried |= drawings or {}
     written = text
-    data = _tables(text, source)
+    data = tables_of(text, source, EMPTY)
     changes: list[Override] = []
     if overrides:
         from batik_vector.recipe.reading.overrides import overridden, parse_override
@@ -83,7 +84,7 @@ def read_recipe(
     except UnsureError:
         from batik_vector.recipe.reading.validator import placed, validated
 
-        found_recipe, found = validated(data)
+        found_recipe, found = validated(data, Recipe)
         if found_recipe is None:
             raise RecipeError(placed(found, source, written, changes)) from None
         recipe = replace(found_recipe, source=text)
@@ -97,15 +98,20 @@ def _drawn(
     written: str,
     overrides: Sequence[str],
 ) -> Recipe:
-    """Return a recipe with the drawings that it names."""
-    if not any(isinstance(motif, Svg) for motif in recipe.motif.values()):
-        return recipe
-    from batik_vector.recipe.reading.drawings import with_drawings
-
+    """Return a recipe with the drawings and the machines that it names."""
+    place = None if folder is None else os.fspath(folder)
     try:
-        return with_drawings(recipe, None if folder is None else os.fspath(folder))
+        if any(isinstance(motif, Svg) for motif in recipe.motif.values()):
+            from batik_vector.recipe.reading.drawings import with_drawings
+
+            recipe = with_drawings(recipe, place)
+        if any(output.machine for output in recipe.output):
+            from batik_vector.recipe.reading.machines import with_machines
+
+            recipe = with_machines(recipe, place)
     except RecipeError as error:
         raise located(error, source, written, overrides) from error
+    return recipe
 
 
 def located(error: RecipeError, source: str, text: str, overrides: Sequence[str] = ()) -> RecipeError:
@@ -113,36 +119,3 @@ def located(error: RecipeError, source: str, text: str, overrides: Sequence[str]
     from batik_vector.recipe.reading.validator import relocated
 
     return relocated(error, source, text, overrides)
-
-
-def _tables(text: str, source: str) -> dict[str, Any]:
-    """Return TOML text as tables, with every text too long, too deep or wrong refused."""
-
-    def fault(words: str, line: int | None = None) -> RecipeError:
-        return RecipeError([Fault(words, "", source, line)])
-
-    if len(text) > MAX_TEXT:
-        raise fault(f"{len(text):,} characters, expected at most {MAX_TEXT:,}")
-    deep = deep_key(text)
-    if deep is not None:
-        raise fault(f"nested deeper than {MAX_DEPTH} tables", text.count("\n", 0, deep) + 1)
-    try:
-        data = tomllib.loads(text)
-        odd = list(odd_numbers(data))
-    except tomllib.TOMLDecodeError as error:
-        from batik_vector.recipe.reading.validator import syntax
-
-        words, line = syntax(str(error), text)
-        raise fault(f"is no valid TOML: {words}", line) from error
-    except RecursionError:
-        raise fault(f"nested deeper than {MAX_DEPTH} tables") from None
-    except ValueError as error:
-        # An integer of thousands of digits, which Python declines to read; or a date such as 2024-02-31.
-        raise fault(f"is no valid TOML: {error}") from error
-    if not data:
-        raise fault('is empty, expected a recipe: "batik-vector new" writes one to begin with')
-    if odd:
-        from batik_vector.recipe.reading.validator import odd_found, placed
-
-        raise RecipeError(placed(odd_found(odd), source, text, []))
-    return data

@@ -71,7 +71,8 @@ class Recipe:
     cloth: Annotated[ClothSpec, Says("the ground")] = field(default_factory=ClothSpec)
     output: Annotated[tuple[AnyOutput, ...], Says("files to write")] = ()
     drawing: Annotated[
-        dict[str, str], Says("SVG drawings by the names of their files; what is not here is read from there")
+        dict[str, str],
+        Says("SVG drawings and machines by the names of their files; what is not here is read from there"),
     ] = field(default_factory=dict)
     source: str = field(default="", metadata={HIDDEN: True})
 

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import enum
 import re
-from dataclasses import fields
+from dataclasses import field, fields
 from typing import Annotated, Any, ClassVar, TypeAlias
 
 from batik_vector.export.options import DxfOptions, PdfOptions, PngOptions, SvgOptions
-from batik_vector.fields import Between, Length, OneOf, Says, Text, check
+from batik_vector.fields import HIDDEN, Alone, Between, Length, OneOf, Says, Text, check
+from batik_vector.machines.profile import Machine
+from batik_vector.processes.options import AnyProcess
 from batik_vector.values import frozen
 
 _FILE_WORD = r"[\w][\w .+-]{0,79}(?<![ .])\Z"
@@ -41,9 +43,6 @@ class OutputSpec:
 
     format: ClassVar[str] = ""
     writer: ClassVar[type] = object
-    later: ClassVar[dict[str, str]] = {
-        "process": "processes (print, plot, cut, wax) are not offered yet: leave the key out"
-    }
 
     name: Annotated[
         str,
@@ -53,6 +52,15 @@ class OutputSpec:
     piece: Annotated[
         Piece | None, Says("the tile or the yardage; the yardage when left out, where the recipe has one")
     ] = None
+    process: Annotated[
+        tuple[AnyProcess, ...], Alone(), Says("what a machine needs done to it, one after the other")
+    ] = ()
+    machine: Annotated[
+        str,
+        Says('the machine it is for: a profile that comes with the program, or a file such as "mine.toml"'),
+    ] = ""
+    machine_profile: Machine | None = field(default=None, metadata={HIDDEN: True})
+    """The machine, once its profile has been read."""
 
     def __post_init__(self) -> None:
         check(self)
@@ -60,7 +68,7 @@ class OutputSpec:
     @property
     def options(self) -> Any:
         """The options of the format's writer, an instance of its own class."""
-        return self.writer(**{field.name: getattr(self, field.name) for field in fields(self.writer)})
+        return self.writer(**{each.name: getattr(self, each.name) for each in fields(self.writer)})
 
 
 @frozen(kw_only=True)

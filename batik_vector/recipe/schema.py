@@ -97,7 +97,8 @@ def _collection(hint: Hint, definitions: dict[str, Schema]) -> Schema | None:
         return None
     item = _value(hint.item, definitions)
     if hint.many:
-        return {"type": "array", "items": item}
+        listed = {"type": "array", "items": item}
+        return {"anyOf": [item, listed]} if hint.alone else listed
     return {
         "type": "object",
         "propertyNames": {"minLength": 1, "maxLength": 80},

@@ -188,7 +188,7 @@ def test_recipes_say_it_all_and_both_readers_agree() -> None:
     assert one.place[0].motifs == ("a", "b")
     assert one.place[2].motifs == ("a",)
     data = tomllib.loads(TEXT)
-    slow, faults = validated(data)
+    slow, faults = validated(data, Recipe)
     assert faults == []
     assert built(Recipe, data) == slow
     assert violations(compile_recipe(one)) == []

@@ -93,6 +93,7 @@ BEYOND = {
         "P1 = 0",
         "a row too many",
         "past the limit",
+        "no such machine",
         "drop 1/0",
         "path in a name",
     ),

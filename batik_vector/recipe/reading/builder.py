@@ -67,6 +67,8 @@ def _tagged(hint: Hint, value: Any) -> Any:
 
 
 def _table(hint: Hint, value: dict[str, Any]) -> Any:
+    if hint.alone and hint.item is not None:
+        return (_value(hint.item, value),)
     if hint.origin is dict and hint.item is not None:
         return {name: _value(hint.item, each) for name, each in value.items()}
     if isinstance(hint.base, type) and dataclasses.is_dataclass(hint.base):

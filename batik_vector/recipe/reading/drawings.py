@@ -6,27 +6,20 @@ name of its file. So it compiles from itself alone.
 
 from __future__ import annotations
 
-import errno
-import os
-import re
-import stat
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from pathlib import PurePosixPath
 
-from batik_vector.errors import Fault, RecipeError, nearest, shortened
+from batik_vector.errors import Fault, RecipeError, shortened
 from batik_vector.importing.document import MAX_FILE, Document, DrawingError, parse
 from batik_vector.importing.drawing.carried import carried
 from batik_vector.importing.drawing.marks import picked
 from batik_vector.recipe.drawing import Svg
 from batik_vector.recipe.model import Recipe
+from batik_vector.recipe.reading.beside import Kind, read_beside
 from batik_vector.recipe.reading.sources import parted, with_carried
-from batik_vector.recipe.references import dotted, quoted
+from batik_vector.recipe.references import dotted
 
-OPENING = (
-    os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_BINARY", 0)
-)
-_WINDOWS = re.compile(r"[a-zA-Z]:|.*\\")
+SVG_FILE = Kind("an SVG file", ".svg", "bird.svg")
 
 
 def with_drawings(recipe: Recipe, folder: str | None) -> Recipe:
@@ -100,70 +93,7 @@ def _blamed(error: RecipeError, name: str, file: str, motif: Svg | None = None) 
 
 
 def _data(recipe: Recipe, file: str, folder: str | None) -> tuple[bytes, str]:
-    """Return the bytes of a drawing and where they were read, once and for all.
-
-    Raises:
-        RecipeError: where it lies outside of the recipe's folder, or cannot be read.
-    """
+    """Return the bytes of a drawing and where they were read, once and for all."""
     if file in recipe.drawing:
         return recipe.drawing[file].encode("utf-8", "replace"), ""
-    if folder is None:
-        raise RecipeError(
-            f"{_shown(file)}: a recipe that is no file has no folder for it: read the recipe from its file"
-        )
-    _refuse_outside(file, folder)
-    path = os.path.realpath(os.path.join(folder, file))
-    try:
-        handle = os.open(path, OPENING)
-    except (OSError, ValueError) as error:
-        raise RecipeError(f"{_shown(file)}: {_reason(file, folder, error)}") from error
-    found = os.fstat(handle)
-    if not stat.S_ISREG(found.st_mode):
-        os.close(handle)
-        what = "a folder" if stat.S_ISDIR(found.st_mode) else "no ordinary file"
-        raise RecipeError(f"{_shown(file)}: is {what}, expected an SVG file")
-    with os.fdopen(handle, "rb") as opened:
-        try:
-            data = opened.read(MAX_FILE + 1)
-        except OSError as error:
-            raise RecipeError(f"{_shown(file)}: {error.strerror}") from error
-    if len(data) > MAX_FILE:
-        size = max(found.st_size, len(data))
-        raise RecipeError(f"{_shown(file)}: {size:,} bytes, expected at most {MAX_FILE:,}")
-    return data, path
-
-
-def _refuse_outside(file: str, folder: str) -> None:
-    """Raise where a name leads out of the recipe's folder: by itself, or by a link on its way."""
-    path = PurePosixPath(file)
-    if not file.strip() or not file.isprintable():
-        raise RecipeError(f'{_shown(file)}, expected the name of an SVG file, such as "bird.svg"')
-    if path.is_absolute() or ".." in path.parts or _WINDOWS.match(file):
-        raise RecipeError(
-            f'{_shown(file)}, expected a file in the recipe\'s folder or below it, such as "{path.name}"'
-        )
-    inside = os.path.realpath(folder)
-    there = os.path.realpath(os.path.join(folder, file))
-    if os.path.commonpath([inside, there]) != inside:
-        raise RecipeError(
-            f"{_shown(file)}: is a link that leads out of the recipe's folder, expected the file"
-        )
-
-
-def _reason(file: str, folder: str, error: Exception) -> str:
-    if not isinstance(error, FileNotFoundError):
-        if isinstance(error, OSError) and error.errno == errno.EISDIR:
-            return "is a folder, expected an SVG file"
-        return (error.strerror if isinstance(error, OSError) else None) or "is no usable name"
-    try:
-        beside = os.path.join(folder, os.path.dirname(file))
-        names = sorted(name for name in os.listdir(beside) if name.lower().endswith(".svg"))[:10_000]
-    except OSError:
-        return f'no such file: there is no folder "{os.path.dirname(file)}"'
-    near = nearest(os.path.basename(file), names)
-    beside = f"{os.path.dirname(file)}/" if os.path.dirname(file) else ""
-    return "no such file" + (f': did you mean "{beside}{near}"?' if near else " beside the recipe")
-
-
-def _shown(file: str) -> str:
-    return quoted(shortened(file))
+    return read_beside(file, folder, SVG_FILE, MAX_FILE)

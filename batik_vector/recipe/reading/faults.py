@@ -77,6 +77,9 @@ def _follow(loc: tuple[str | int, ...], data: Any, hint: Hint) -> _Spot:
     for part in loc:
         if isinstance(part, str) and part.startswith(TAG):
             continue
+        if hint.alone and hint.item is not None and isinstance(data, dict):
+            hint = hint.item  # the table itself stands where the list would
+            continue
         around, hint, data = hint, _inside(hint, data, part), _at(data, part)
         path = (*path, part)
     return _Spot(path, data, hint, around)
@@ -203,6 +206,8 @@ def unknown_keys(data: Any, hint: Hint, path: Path = ()) -> list[Found]:
         for index, (each, inner) in enumerate(zip(data, items, strict=False)):
             found += unknown_keys(each, inner, (*path, index))
         return found
+    if hint.alone and hint.item is not None:
+        return unknown_keys(data, hint.item, path)
     cls = chosen(hint, data)
     if not isinstance(data, dict) or not (cls or hint.origin is dict):
         return found

@@ -13,6 +13,7 @@ from typing import Annotated, Any, Literal, Union
 
 from batik_vector.fields import (
     HIDDEN,
+    Alone,
     Between,
     LengthUnit,
     OneOf,
@@ -39,6 +40,7 @@ class Hint:
     text: Text | None = None
     length: bool = False
     several: bool = False
+    alone: bool = False
 
     @functools.cached_property
     def origin(self) -> Any:
@@ -104,6 +106,7 @@ def taken_apart(hint: Any) -> Hint:
                     marks.setdefault(_MARKS[type(mark)], mark)
                 marks["length"] = marks.get("length") or isinstance(mark, LengthUnit)
                 marks["several"] = marks.get("several") or isinstance(mark, Several)
+                marks["alone"] = marks.get("alone") or isinstance(mark, Alone)
         elif origin in (Union, types.UnionType) and types.NoneType in typing.get_args(hint):
             (hint,) = (arg for arg in typing.get_args(hint) if arg is not types.NoneType)
         else:
@@ -195,6 +198,8 @@ def _expected_items(items: list[Hint]) -> str:
 def _expected_other(hint: Hint) -> str:
     if hint.many:
         assert hint.item is not None
+        if hint.alone:
+            return f"{_expected_other(hint.item)}, or a list of such"
         if hint.item.one_of or dataclasses.is_dataclass(hint.item.base):
             return "a list of tables"
         if hint.item.names:

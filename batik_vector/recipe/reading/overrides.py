@@ -55,7 +55,7 @@ def parse_override(text: str) -> Override:
         if not equals or not value.strip():
             raise ValueError("expected KEY=VALUE, such as motif.flower.petal.count=12")
         path = parse_path(key.strip())
-        change = Override(path, _parsed(value.strip()), text)
+        change = Override(path, parsed_value(value.strip()), text)
         for _, number in odd_numbers(change.value, path):
             raise ValueError(odd_number(number))
     except ValueError as error:
@@ -66,7 +66,8 @@ def parse_override(text: str) -> Override:
     return change
 
 
-def _parsed(value: str) -> Any:
+def parsed_value(value: str) -> Any:
+    """Return a value as TOML reads it; what is no TOML is text."""
     try:
         table = tomllib.loads(f"v = {value}")
     except (ValueError, RecursionError):

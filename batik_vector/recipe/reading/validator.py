@@ -8,9 +8,9 @@ from __future__ import annotations
 import functools
 import json
 import re
-from collections.abc import Sequence
+from collections.abc import Hashable, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 from batik_vector.errors import Fault, RecipeError
 from batik_vector.recipe.model import Recipe
@@ -24,30 +24,33 @@ if TYPE_CHECKING:
     from pydantic import TypeAdapter
 
 
+Kind = TypeVar("Kind")
+
+
 @functools.cache
-def _adapter() -> TypeAdapter[Recipe]:
+def _adapter(kind: Any) -> TypeAdapter[Any]:
     from pydantic import TypeAdapter
 
-    return TypeAdapter(Recipe)
+    return TypeAdapter(kind)
 
 
-def validated(data: dict[str, Any]) -> tuple[Recipe | None, list[Found]]:
-    """Return the recipe as pydantic reads it, or what it finds wrong."""
+def validated(data: dict[str, Any], kind: type[Kind]) -> tuple[Kind | None, list[Found]]:
+    """Return tables as pydantic reads them, a recipe's or a machine's, or what it finds wrong."""
     from pydantic import ValidationError
 
-    found = unknown_keys(data, Hint(Recipe))
+    found = unknown_keys(data, Hint(kind))
     # As JSON, whose strict mode takes lists for tuples and names for enums, but never text for numbers.
     # Dates, which no key expects, become what no key accepts.
     text = json.dumps(data, default=lambda date: {"date": str(date)})
     try:
-        recipe = _adapter().validate_json(text)
+        read: Kind = _adapter(cast(Hashable, kind)).validate_json(text)
     except ValidationError as error:
         errors = error.errors(include_url=False)
-        found += found_in(errors, data, Recipe)
-        if any(each["loc"] for each in errors):
+        found += found_in(errors, data, kind)
+        if kind is Recipe and any(each["loc"] for each in errors):
             found += [Found(path, fault) for path, fault in unknown_references(data)]
         return None, found
-    return (None if found else recipe), found
+    return (None if found else read), found
 
 
 def relocated(error: RecipeError, source: str, text: str, overrides: Sequence[str]) -> RecipeError:

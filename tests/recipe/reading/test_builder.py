@@ -37,7 +37,7 @@ def changed(table: dict[str, Any], path: tuple[Any, ...], value: Any) -> dict[st
 @pytest.mark.parametrize("name", SAMPLES)
 def test_every_sample_is_read_the_short_way_and_as_pydantic_reads_it(name: str) -> None:
     quick = built(Recipe, SAMPLES[name])
-    slow, found = validated(SAMPLES[name])
+    slow, found = validated(SAMPLES[name], Recipe)
     assert not found
     assert quick == slow
     # Equal is not the same: 1 == 1.0 == True.
@@ -61,7 +61,7 @@ def test_what_it_accepts_after_any_change_pydantic_accepts_alike(data: st.DataOb
         quick = built(Recipe, table)
     except UnsureError:
         return
-    slow, found = validated(table)
+    slow, found = validated(table, Recipe)
     assert not found
     assert repr(quick) == repr(slow)
 

@@ -1,0 +1,63 @@
+"""``--process "cut kerf=0.15mm"``: processes asked for by the call, read as a recipe's are."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Sequence
+from typing import Annotated, Any
+
+from batik_vector.errors import Fault, RecipeError
+from batik_vector.fields import Alone
+from batik_vector.processes.options import AnyProcess, ProcessSpec
+from batik_vector.recipe.reading.overrides import parsed_value
+from batik_vector.recipe.reading.tables import values_of
+from batik_vector.values import frozen
+
+
+@frozen(kw_only=True)
+class _Called:
+    process: Annotated[tuple[AnyProcess, ...], Alone()]
+
+
+def read_process(text: str) -> ProcessSpec:
+    """Return the process that a call asks for.
+
+    Args:
+        text: its kind, and its keys as ``KEY=VALUE`` parted by blanks; keys of a table within it with a dot.
+
+    Raises:
+        RecipeError: with everything that is wrong.
+    """
+    source = f"--process {text}"
+    try:
+        kind, *said = shlex.split(text)
+    except ValueError:
+        raise RecipeError([Fault('expected a process such as "cut kerf=0.15mm"', source=source)]) from None
+    table: dict[str, Any] = {"kind": kind}
+    for each in said:
+        key, equals, value = each.partition("=")
+        if not (equals and key and value):
+            raise RecipeError([Fault(f'"{each}", expected KEY=VALUE, such as kerf=0.15mm', source=source)])
+        _put(table, key.split("."), parsed_value(value), source)
+    try:
+        return values_of(_Called, {"process": table}, source).process[0]
+    except RecipeError as error:
+        raise RecipeError([_without_root(each) for each in error.faults]) from None
+
+
+def read_processes(texts: Sequence[str]) -> tuple[ProcessSpec, ...]:
+    """Return the processes that a call asks for, in their order."""
+    return tuple(map(read_process, texts))
+
+
+def _put(table: dict[str, Any], path: list[str], value: Any, source: str) -> None:
+    for part in path[:-1]:
+        inner = table.setdefault(part, {})
+        if not isinstance(inner, dict):
+            raise RecipeError([Fault(f"{part} has a value already", ".".join(path), source)])
+        table = inner
+    table[path[-1]] = value
+
+
+def _without_root(fault: Fault) -> Fault:
+    return Fault(fault.message, fault.key.removeprefix("process").removeprefix("."), fault.source)
