@@ -1,0 +1,144 @@
+"""Each stroke once: what an earlier stroke has drawn already is left out of the later ones.
+
+Strokes are taken apart at every place that lies upon them, within 1 µm, where any stroke turns, begins or ends.
+Then pieces with the same two ends are the same, whichever way they are drawn: so are exact doubles, reversed
+ones, and the parts that overlapping lines have in common, slanted ones too, whose ends were rounded beside one
+another's line. Nothing moves by more than that 1 µm, and a line that nothing touches not at all.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from batik_vector.geometry.outlines import Index, Offsets, Outlines, Steps
+from batik_vector.processes.ordering.distances import PARTS, distances
+from batik_vector.processes.plotting.touching import numbered, pairs, touching
+from batik_vector.units import STEPS_PER_MM
+from batik_vector.values import frozen
+
+REACH = 1
+"""How many steps beside one another two stretches may lie that are the same line."""
+
+TOLD = 10
+"""Places that are told of."""
+
+
+@frozen(eq=False)
+class Doubled:
+    """What had been drawn before: a stretch for each piece of a stroke that was left out.
+
+    ``places`` has shape (k, 2): the middle of each stretch's first piece, in steps. ``source`` are the numbers
+    of the strokes that they are left out of. ``length`` is that of all together, in parts of a step.
+    """
+
+    places: Steps
+    source: Index
+    length: int
+
+    def facts(self) -> dict[str, Any]:
+        """Return how many stretches were doubled, how many mm that saves, and where the first of them lie."""
+        return {
+            "doubled": len(self.places),
+            "saved_mm": round(self.length / PARTS / STEPS_PER_MM, 3),
+            "doubled_at": [[x / STEPS_PER_MM, y / STEPS_PER_MM] for x, y in self.places[:TOLD].tolist()],
+        }
+
+
+@frozen(eq=False)
+class _Pieces:
+    """Segments in their strokes' order: the numbers of their ends, their strokes, and whether each stays."""
+
+    start: Index
+    end: Index
+    stroke: Index
+    stays: NDArray[np.bool_]
+
+
+def once(strokes: Outlines, reach: int = REACH) -> tuple[Outlines, Index, Doubled]:
+    """Return what is left of strokes when nothing is drawn twice, in their order and without names.
+
+    Args:
+        strokes: one ring or polyline to a mark. The first of those that share a line draws it.
+        reach: how many steps beside one another two stretches may lie that are the same line.
+
+    Returns:
+        The strokes that are left, closed where a closed one is whole; for each of them the number of the stroke
+        that it is a part of; and what is left out.
+
+    Raises:
+        GeometryError: where the drawing is broader or higher than 2 km.
+    """
+    points, rings = strokes.repeating()
+    places, number = numbered(points)
+    pieces = _segments(number, rings)
+    pieces = _first_of_each(pieces, len(places))
+    segments = np.flatnonzero(pieces.stays)
+    which, upon = touching(places, pieces.start[segments], pieces.end[segments], reach)
+    if len(which):
+        pieces = _first_of_each(_cut(pieces, segments[which], upon), len(places))
+    doubled = _doubled(pieces, places)
+    left, source = _left(pieces, places, strokes.closed)
+    return left, source, doubled
+
+
+def _segments(number: Index, rings: Offsets) -> _Pieces:
+    """Return the segments of strokes that have a length."""
+    stroke = np.repeat(np.arange(len(rings) - 1), np.diff(rings))
+    real = np.flatnonzero((stroke[1:] == stroke[:-1]) & (number[1:] != number[:-1]))
+    return _Pieces(number[real], number[real + 1], stroke[real], np.ones(len(real), bool))
+
+
+def _first_of_each(pieces: _Pieces, places: int) -> _Pieces:
+    """Return pieces of which, of those that stay, only those do that no earlier one has drawn."""
+    some = np.flatnonzero(pieces.stays)
+    keys = pairs(pieces.start[some], pieces.end[some], places)
+    stays: NDArray[np.bool_] = np.zeros(len(pieces.stays), bool)
+    stays[some[np.unique(keys, return_index=True)[1]]] = True
+    return _Pieces(pieces.start, pieces.end, pieces.stroke, stays)
+
+
+def _cut(pieces: _Pieces, which: Index, upon: Index) -> _Pieces:
+    """Return pieces cut at the places upon them; ``which`` ascends."""
+    after = np.insert(pieces.start, which + 1, upon)
+    end = np.insert(pieces.end, which, upon)
+    # A place ends one piece and begins the next.
+    stroke, stays = (np.insert(each, which, each[which]) for each in (pieces.stroke, pieces.stays))
+    return _Pieces(after, end, stroke, stays)
+
+
+def _left(pieces: _Pieces, places: Steps, closed: NDArray[np.bool_]) -> tuple[Outlines, Index]:
+    """Return the strokes that staying pieces make, and which strokes they are parts of."""
+    order = _from_a_gap(pieces, closed)
+    start, end, stroke = pieces.start[order], pieces.end[order], pieces.stroke[order]
+    heads = np.flatnonzero(np.append(True, (start[1:] != end[:-1]) | (stroke[1:] != stroke[:-1]))[: len(order)])
+    tails = np.append(heads[1:], len(order))[: len(heads)] - 1
+    # There and back encloses nothing.
+    shut = closed[stroke[heads]] & (start[heads] == end[tails]) & (tails - heads >= 2)
+    number = np.insert(start, (tails + 1)[~shut], end[tails[~shut]])
+    rings = np.concatenate([[0], np.cumsum(tails - heads + 1 + ~shut)]).astype(np.int64)
+    return Outlines(places[number], rings, np.arange(len(rings)), shut), stroke[heads]
+
+
+def _from_a_gap(pieces: _Pieces, closed: NDArray[np.bool_]) -> Index:
+    """Return the pieces that stay, in order; those of a closed stroke from after its last gap on."""
+    kept = np.flatnonzero(pieces.stays)
+    gaps = np.flatnonzero(~pieces.stays & closed[pieces.stroke])
+    if not len(gaps):
+        return kept
+    last = np.full(len(closed), -1)
+    # Of several, the last one written stands.
+    last[pieces.stroke[gaps]] = gaps
+    before = kept < last[pieces.stroke[kept]]
+    return kept[np.lexsort((kept, before, pieces.stroke[kept]))]
+
+
+def _doubled(pieces: _Pieces, places: Steps) -> Doubled:
+    """Return what does not stay."""
+    gone = np.flatnonzero(~pieces.stays)
+    start, end, stroke = pieces.start[gone], pieces.end[gone], pieces.stroke[gone]
+    fresh = np.append(True, (np.diff(gone) != 1) | (np.diff(stroke) != 0))[: len(gone)]
+    middle = (places[start[fresh]] + places[end[fresh]]) // 2
+    return Doubled(middle, stroke[fresh], int(distances(places[start], places[end]).sum()))
