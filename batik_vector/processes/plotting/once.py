@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from batik_vector.geometry.outlines import Index, Offsets, Outlines, Steps
 from batik_vector.processes.ordering.distances import PARTS, distances
+from batik_vector.processes.plotting.pieces import Pieces
 from batik_vector.processes.plotting.touching import numbered, pairs, touching
 from batik_vector.units import STEPS_PER_MM
 from batik_vector.values import frozen
@@ -48,7 +49,7 @@ class Doubled:
 
 
 @frozen(eq=False)
-class _Pieces:
+class _Numbered:
     """Segments in their strokes' order: the numbers of their ends, their strokes, and whether each stays."""
 
     start: Index
@@ -80,62 +81,37 @@ def once(strokes: Outlines, reach: int = REACH) -> tuple[Outlines, Index, Double
     if len(which):
         pieces = _first_of_each(_cut(pieces, segments[which], upon), len(places))
     doubled = _doubled(pieces, places)
-    left, source = _left(pieces, places, strokes.closed)
+    parts = Pieces(places[pieces.start], places[pieces.end], pieces.stroke)
+    left, source = parts.staying(pieces.stays, strokes.closed)
     return left, source, doubled
 
 
-def _segments(number: Index, rings: Offsets) -> _Pieces:
+def _segments(number: Index, rings: Offsets) -> _Numbered:
     """Return the segments of strokes that have a length."""
     stroke = np.repeat(np.arange(len(rings) - 1), np.diff(rings))
     real = np.flatnonzero((stroke[1:] == stroke[:-1]) & (number[1:] != number[:-1]))
-    return _Pieces(number[real], number[real + 1], stroke[real], np.ones(len(real), bool))
+    return _Numbered(number[real], number[real + 1], stroke[real], np.ones(len(real), bool))
 
 
-def _first_of_each(pieces: _Pieces, places: int) -> _Pieces:
+def _first_of_each(pieces: _Numbered, places: int) -> _Numbered:
     """Return pieces of which, of those that stay, only those do that no earlier one has drawn."""
     some = np.flatnonzero(pieces.stays)
     keys = pairs(pieces.start[some], pieces.end[some], places)
     stays: NDArray[np.bool_] = np.zeros(len(pieces.stays), bool)
     stays[some[np.unique(keys, return_index=True)[1]]] = True
-    return _Pieces(pieces.start, pieces.end, pieces.stroke, stays)
+    return _Numbered(pieces.start, pieces.end, pieces.stroke, stays)
 
 
-def _cut(pieces: _Pieces, which: Index, upon: Index) -> _Pieces:
+def _cut(pieces: _Numbered, which: Index, upon: Index) -> _Numbered:
     """Return pieces cut at the places upon them; ``which`` ascends."""
     after = np.insert(pieces.start, which + 1, upon)
     end = np.insert(pieces.end, which, upon)
     # A place ends one piece and begins the next.
     stroke, stays = (np.insert(each, which, each[which]) for each in (pieces.stroke, pieces.stays))
-    return _Pieces(after, end, stroke, stays)
+    return _Numbered(after, end, stroke, stays)
 
 
-def _left(pieces: _Pieces, places: Steps, closed: NDArray[np.bool_]) -> tuple[Outlines, Index]:
-    """Return the strokes that staying pieces make, and which strokes they are parts of."""
-    order = _from_a_gap(pieces, closed)
-    start, end, stroke = pieces.start[order], pieces.end[order], pieces.stroke[order]
-    heads = np.flatnonzero(np.append(True, (start[1:] != end[:-1]) | (stroke[1:] != stroke[:-1]))[: len(order)])
-    tails = np.append(heads[1:], len(order))[: len(heads)] - 1
-    # There and back encloses nothing.
-    shut = closed[stroke[heads]] & (start[heads] == end[tails]) & (tails - heads >= 2)
-    number = np.insert(start, (tails + 1)[~shut], end[tails[~shut]])
-    rings = np.concatenate([[0], np.cumsum(tails - heads + 1 + ~shut)]).astype(np.int64)
-    return Outlines(places[number], rings, np.arange(len(rings)), shut), stroke[heads]
-
-
-def _from_a_gap(pieces: _Pieces, closed: NDArray[np.bool_]) -> Index:
-    """Return the pieces that stay, in order; those of a closed stroke from after its last gap on."""
-    kept = np.flatnonzero(pieces.stays)
-    gaps = np.flatnonzero(~pieces.stays & closed[pieces.stroke])
-    if not len(gaps):
-        return kept
-    last = np.full(len(closed), -1)
-    # Of several, the last one written stands.
-    last[pieces.stroke[gaps]] = gaps
-    before = kept < last[pieces.stroke[kept]]
-    return kept[np.lexsort((kept, before, pieces.stroke[kept]))]
-
-
-def _doubled(pieces: _Pieces, places: Steps) -> Doubled:
+def _doubled(pieces: _Numbered, places: Steps) -> Doubled:
     """Return what does not stay."""
     gone = np.flatnonzero(~pieces.stays)
     start, end, stroke = pieces.start[gone], pieces.end[gone], pieces.stroke[gone]

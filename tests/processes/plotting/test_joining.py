@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import math
 from collections import Counter
 from itertools import pairwise
 from typing import Any
@@ -20,20 +21,20 @@ POLYLINES = st.lists(
 )
 
 
-def _segments(drawn: Outlines) -> list[tuple[Place, Place]]:
-    """Unit pieces of segments on a grid of 1000, so that vertices on a straight way do not matter."""
+def _segments(drawn: Outlines, corners: set[Place]) -> list[tuple[Place, Place]]:
+    """Segments cut at all corners upon them, so that vertices on a straight way do not matter."""
     found = []
     for points, closed in zip(parts_of(drawn), drawn.closed.tolist(), strict=True):
-        for (x, y), (u, v) in pairwise([*points, *points[: int(closed)]]):
-            found += [tuple(sorted(pair)) for pair in pairwise(_on_the_way((x, y), (u, v)))]
+        for a, b in pairwise([*points, *points[: int(closed)]]):
+            upon = [place for place in corners if _upon(place, a, b)]
+            upon.sort(key=lambda place: math.dist(a, place))
+            found += [tuple(sorted(pair)) for pair in pairwise(upon)]
     return sorted(found)
 
 
-def _on_the_way(a: Place, b: Place) -> list[Place]:
-    for parts in (4, 3, 2):
-        if all((q - p) % (1000 * parts) == 0 for p, q in zip(a, b, strict=True)):
-            return [(a[0] + (b[0] - a[0]) * k // parts, a[1] + (b[1] - a[1]) * k // parts) for k in range(parts + 1)]
-    return [a, b]
+def _upon(place: Place, a: Place, b: Place) -> bool:
+    (x, y), (u, v) = (place[0] - a[0], place[1] - a[1]), (b[0] - a[0], b[1] - a[1])
+    return x * v == y * u and 0 <= x * u + y * v <= u * u + v * v
 
 
 def _fewest(segments: list[tuple[Place, Place]]) -> int:
@@ -58,9 +59,11 @@ def _fewest(segments: list[tuple[Place, Place]]) -> int:
 @given(POLYLINES)
 def test_the_same_is_drawn_with_as_few_lifts_as_can_be(parts: Any) -> None:
     drawn = once(strokes(*((closed and len(set(points)) > 2, points) for closed, points in parts)))[0]
+    corners = {place for part in parts_of(drawn) for place in part}
+    segments = _segments(drawn, corners)
     found = longest(drawn)
-    assert _segments(found) == _segments(drawn)
-    assert len(found) == (_fewest(_segments(drawn)) if len(drawn) else 0)
+    assert _segments(found, corners) == segments
+    assert len(found) == _fewest(segments)
 
 
 def test_paths_go_straight_on_where_they_cross() -> None:

@@ -16,7 +16,10 @@ PLACE = st.tuples(st.integers(0, 20_000), st.integers(0, 20_000))
 
 
 def test_at_speed_at_once_it_is_way_over_speed() -> None:
-    found = taken(strokes(line((0, 0), (30_000, 40_000)), line((30_000, 50_000), (30_000, 70_000))), Pace(10, 50, 0, 0.5))
+    found = taken(
+        strokes(line((0, 0), (30_000, 40_000)), line((30_000, 50_000), (30_000, 70_000))),
+        Pace(10, 50, 0, 0.5),
+    )
     assert (found.drawn, found.travelled, found.lifts) == (70.0, 10.0, 2)
     assert found.seconds == pytest.approx(7 + 0.2 + 1)
 
@@ -31,7 +34,9 @@ def test_at_speed_at_once_it_is_way_over_speed() -> None:
     ],
 )
 def test_a_way_from_rest_to_rest_is_a_trapezoid_or_a_triangle(length: int, seconds: float) -> None:
-    assert taken(strokes(line((0, 0), (1000 * length, 0))), Pace(100, 100, 1000)).seconds == pytest.approx(seconds)
+    assert taken(strokes(line((0, 0), (1000 * length, 0))), Pace(100, 100, 1000)).seconds == pytest.approx(
+        seconds
+    )
 
 
 def test_a_corner_is_taken_at_the_speed_of_its_arc() -> None:
@@ -47,7 +52,9 @@ def test_a_corner_is_taken_at_the_speed_of_its_arc() -> None:
 def test_a_vertex_on_a_straight_way_costs_nothing() -> None:
     pace = Pace(100, 100, 1000)
     parted = strokes(line((0, 0), (10_000, 0), (10_500, 0), (50_000, 0)))
-    assert taken(parted, pace).seconds == pytest.approx(taken(strokes(line((0, 0), (50_000, 0))), pace).seconds)
+    assert taken(parted, pace).seconds == pytest.approx(
+        taken(strokes(line((0, 0), (50_000, 0))), pace).seconds
+    )
 
 
 def _stepwise(points: Any, pace: Pace) -> float:
