@@ -1,8 +1,8 @@
 """Hidden lines: what lies under the areas of higher inks is not drawn.
 
-Strokes are cut where they pass the edges of areas, and each part between two passages is asked for once whether
-it lies inside. What runs along an edge, as the border of what was knocked out does, is not under it: areas are
-taken a hair smaller than they are, or larger by as much as strokes are to keep away from them.
+Strokes are cut where they pass the edges of areas, and each part between two passages is asked for once
+whether it lies inside. What runs along an edge, as the border of what was knocked out does, is not under it:
+areas are taken a hair smaller than they are, or larger by as much as strokes are to keep away from them.
 """
 
 from __future__ import annotations
@@ -38,21 +38,22 @@ def seen(strokes: Outlines, areas: Outlines, margin: int = 0) -> tuple[Outlines,
         margin: how many steps strokes keep away from the areas.
 
     Returns:
-        The strokes that are left, closed where a closed one is whole; for each of them the number of the stroke
-        that it is a part of; and the length of what is hidden, in parts of a step.
+        The strokes that are left, closed where a closed one is whole; for each of them the number of the
+        stroke that it is a part of; and the length of what is hidden, in parts of a step.
     """
     covers = _covers(areas, margin)
     if not len(covers) or not len(strokes):
         return strokes, np.arange(len(strokes)), 0
-    ways = _ways(strokes)
+    ways = Pieces.of(strokes)
     which, share = _passages(ways, covers)
-    parts, fresh = _cut(ways, which, share)
+    way = (ways.end - ways.begin)[which]
+    parts = ways.cut(which, ways.begin[which] + np.rint(way * share[:, None]).astype(np.int64))
+    fresh = np.insert(np.append(True, ways.stroke[1:] != ways.stroke[:-1]), which + 1, True)
     hidden = _under(parts, fresh, covers)
     length = int(distances(parts.begin[hidden], parts.end[hidden]).sum())
     # A passage through a vertex leaves a piece of no length, which is no gap.
     real = np.flatnonzero((parts.begin != parts.end).any(axis=1))
-    parts = Pieces(parts.begin[real], parts.end[real], parts.stroke[real])
-    left, source = parts.staying(~hidden[real], strokes.closed)
+    left, source = parts.taken(real).staying(~hidden[real], strokes.closed)
     return left, source, length
 
 
@@ -64,13 +65,6 @@ def _covers(areas: Outlines, margin: int) -> NDArray[np.object_]:
     grown = shapely.buffer(whole, apart, quad_segs=QUARTER, join_style="round" if margin else "mitre")
     parts = shapely.get_parts(grown)
     return to_polygons(of_polygons(parts[~shapely.is_empty(parts)]))
-
-
-def _ways(strokes: Outlines) -> Pieces:
-    points, rings = strokes.repeating()
-    stroke = np.repeat(np.arange(len(strokes)), np.diff(rings))
-    real = np.flatnonzero((stroke[1:] == stroke[:-1]) & (points[1:] != points[:-1]).any(axis=1))
-    return Pieces(points[real], points[real + 1], stroke[real])
 
 
 def _passages(ways: Pieces, covers: NDArray[np.object_]) -> tuple[Index, Array]:
@@ -93,17 +87,6 @@ def _passages(ways: Pieces, covers: NDArray[np.object_]) -> tuple[Index, Array]:
     which, share = which[real], np.clip(share[real], 0.0, 1.0)
     order = np.lexsort((share, which))
     return which[order], share[order]
-
-
-def _cut(ways: Pieces, which: Index, share: Array) -> tuple[Pieces, NDArray[np.bool_]]:
-    """Return segments cut at shares of their length, and which pieces begin there or with a stroke."""
-    way = (ways.end - ways.begin)[which]
-    at = ways.begin[which] + np.rint(way * share[:, None]).astype(np.int64)
-    begin, end = np.insert(ways.begin, which + 1, at, axis=0), np.insert(ways.end, which, at, axis=0)
-    fresh = np.append(True, ways.stroke[1:] != ways.stroke[:-1])
-    return Pieces(begin, end, np.insert(ways.stroke, which, ways.stroke[which])), np.insert(
-        fresh, which + 1, True
-    )
 
 
 def _under(parts: Pieces, fresh: NDArray[np.bool_], covers: NDArray[np.object_]) -> NDArray[np.bool_]:

@@ -1,9 +1,9 @@
 """Longest paths: strokes that meet become one, with as few lifts of the pen as can be.
 
-At every place the ends that go on straightest are paired; then each round way is taken into another path that it
-meets. What is left is least: for what hangs together, half as many paths as it has places where an odd number of
-ends meet, and one where there are none. This is Hierholzer's way to Euler's paths, begun with whole paths in
-place of wandering ones. C. Hierholzer, Mathematische Annalen 6 (1873), 30-32.
+At every place the ends that go on straightest are paired; then each round way is taken into another path that
+it meets. What is left is least: for what hangs together, half as many paths as it has places where an odd
+number of ends meet, and one where there are none. This is Hierholzer's way to Euler's paths, begun with whole
+paths in place of wandering ones. C. Hierholzer, Mathematische Annalen 6 (1873), 30-32.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from batik_vector.processes.plotting.touching import numbered
 from batik_vector.values import frozen
 
 ENDS = 64
-"""Ends that meet in one place of which the straightest are paired; where more do, they are paired as they come."""
+"""Ends in one place of which the straightest are paired; where more meet, they are paired as they come."""
 
 FINE = 1 << 20
 """Parts of one in which it is measured how straight two ends go on."""
@@ -33,8 +33,8 @@ Directions: TypeAlias = NDArray[np.float64]
 class _Edges:
     """Runs of points from one place where strokes may meet to the next.
 
-    Edge e has the ends 2e and 2e + 1: ``place`` has the number of the place of each, and ``heading`` the way that
-    the edge goes from there, shape (2n, 2), of length 1. ``first`` and ``last`` are its points.
+    Edge e has the ends 2e and 2e + 1: ``place`` has the number of the place of each, and ``heading`` the way
+    that the edge goes from there, shape (2n, 2), of length 1. ``first`` and ``last`` are its points.
     """
 
     first: Index
@@ -46,8 +46,8 @@ class _Edges:
 def longest(strokes: Outlines) -> Outlines:
     """Return strokes joined to longest paths, without names; closed where they come back to their beginning.
 
-    Strokes are joined where they begin, end or turn in the same place; where they only cross between vertices they
-    stay apart. Vertices on a straight way, which say nothing, are left out.
+    Strokes are joined where they begin, end or turn in the same place; where they only cross between vertices
+    they stay apart. Vertices on a straight way, which say nothing, are left out.
 
     Args:
         strokes: one ring or polyline to a mark.
@@ -165,7 +165,7 @@ def _meetings(path_of: Index, shut: NDArray[np.bool_], place: Index) -> Iterator
 def _take_in(
     partner: Index, ends: list[int], path_of: Index, root: list[int], shut: list[bool], heading: Directions
 ) -> None:
-    """Take the closed paths at a place into one of those that they meet there, an open one if there is any."""
+    """Take the closed paths at a place into one of those that they meet there, an open one if there is one."""
 
     def found(end: int) -> int:
         at = int(path_of[end])

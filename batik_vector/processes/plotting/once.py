@@ -1,9 +1,9 @@
 """Each stroke once: what an earlier stroke has drawn already is left out of the later ones.
 
-Strokes are taken apart at every place that lies upon them, within 1 µm, where any stroke turns, begins or ends.
-Then pieces with the same two ends are the same, whichever way they are drawn: so are exact doubles, reversed
-ones, and the parts that overlapping lines have in common, slanted ones too, whose ends were rounded beside one
-another's line. Nothing moves by more than that 1 µm, and a line that nothing touches not at all.
+Strokes are taken apart at every place that lies upon them, within 1 µm, where any stroke turns, begins or
+ends. Then pieces with the same two ends are the same, whichever way they are drawn: so are exact doubles,
+reversed ones, and the parts that overlapping lines have in common, slanted ones too, whose ends were rounded
+beside one another's line. Nothing moves by more than that 1 µm, and a line that nothing touches not at all.
 """
 
 from __future__ import annotations
@@ -31,8 +31,8 @@ TOLD = 10
 class Doubled:
     """What had been drawn before: a stretch for each piece of a stroke that was left out.
 
-    ``places`` has shape (k, 2): the middle of each stretch's first piece, in steps. ``source`` are the numbers
-    of the strokes that they are left out of. ``length`` is that of all together, in parts of a step.
+    ``places`` has shape (k, 2): the middle of each stretch's first piece, in steps. ``source`` are the
+    numbers of the strokes that they are left out of. ``length`` is that of all together, in parts of a step.
     """
 
     places: Steps
@@ -66,8 +66,8 @@ def once(strokes: Outlines, reach: int = REACH) -> tuple[Outlines, Index, Double
         reach: how many steps beside one another two stretches may lie that are the same line.
 
     Returns:
-        The strokes that are left, closed where a closed one is whole; for each of them the number of the stroke
-        that it is a part of; and what is left out.
+        The strokes that are left, closed where a closed one is whole; for each of them the number of the
+        stroke that it is a part of; and what is left out.
 
     Raises:
         GeometryError: where the drawing is broader or higher than 2 km.

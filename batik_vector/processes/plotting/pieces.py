@@ -20,8 +20,30 @@ class Pieces:
     end: Steps
     stroke: Index
 
+    @staticmethod
+    def of(strokes: Outlines) -> Pieces:
+        """Return the segments of strokes that have a length."""
+        points, rings = strokes.repeating()
+        stroke = np.repeat(np.arange(len(strokes)), np.diff(rings))
+        real = np.flatnonzero((stroke[1:] == stroke[:-1]) & (points[1:] != points[:-1]).any(axis=1))
+        return Pieces(points[real], points[real + 1], stroke[real])
+
+    def cut(self, which: Index, at: Steps) -> Pieces:
+        """Return pieces cut at places: ``which`` ascends, and the places follow one another along each."""
+        return Pieces(
+            np.insert(self.begin, which + 1, at, axis=0),
+            np.insert(self.end, which, at, axis=0),
+            np.insert(self.stroke, which, self.stroke[which]),
+        )
+
+    def taken(self, which: Index) -> Pieces:
+        """Return some of the pieces, in this order."""
+        return Pieces(self.begin[which], self.end[which], self.stroke[which])
+
     def staying(self, stays: NDArray[np.bool_], closed: NDArray[np.bool_]) -> tuple[Outlines, Index]:
-        """Return the strokes that some pieces make, closed where a closed one is whole, and whose parts they are.
+        """Return the strokes that some pieces make, and the numbers of those that they are parts of.
+
+        They are closed where a closed one is whole.
 
         Args:
             stays: shape (n,), which pieces there are.

@@ -1,8 +1,8 @@
 """How long a pen takes: it gathers speed, brakes for corners and stops at both ends of every stroke.
 
-Between two stops speed rises and falls by one acceleration and is held at the top: a trapezoid. A corner is gone
-round as fast as the same acceleration holds a tool on the arc that stays within a small deviation of it: Sonny
-Jeon, "Improving Grbl: Cornering Algorithm", 24 September 2011, as the controller grbl does with its setting $11.
+Between two stops speed rises and falls by one acceleration and is held at the top: a trapezoid. A corner is
+gone round as fast as the same acceleration holds a tool on the arc that stays within a small deviation of it:
+Sonny Jeon, "Improving Grbl: Cornering Algorithm", 24 September 2011, as grbl does with its setting $11.
 """
 
 from __future__ import annotations

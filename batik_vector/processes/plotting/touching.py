@@ -42,7 +42,7 @@ def numbered(points: Steps) -> tuple[Steps, Index]:
 
 
 def pairs(one: Index, other: Index, count: int) -> Ints:
-    """Return one number for each pair of places, whichever comes first; ``count`` is how many places there are."""
+    """Return a number for each pair of places, whichever comes first, of so many places."""
     return np.asarray(np.minimum(one, other), np.int64) * count + np.maximum(one, other)
 
 
@@ -69,7 +69,7 @@ class _Strips:
 
 
 def touching(places: Steps, start: Index, end: Index, reach: int = 1) -> tuple[Index, Index]:
-    """Return which places lie upon which segments, between their ends: (segments, places), along each segment.
+    """Return which places lie upon which segments, between their ends: (segments, places), along each.
 
     Args:
         places: shape (k, 2), each of them once.

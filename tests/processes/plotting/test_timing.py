@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -63,7 +64,7 @@ def _stepwise(points: Any, pace: Pace) -> float:
     steps = np.diff(at, axis=0)
     length = np.hypot(*steps.T)
     speeds = [0.0]
-    for one, other in zip(steps[:-1], steps[1:], strict=True):
+    for one, other in pairwise(steps):
         cosine = -float(one @ other) / float(np.hypot(*one) * np.hypot(*other))
         sine = math.sqrt(max(0.0, (1 - cosine) / 2))
         free = pace.acceleration * DEVIATION * sine / max(1 - sine, 1e-12)
@@ -91,8 +92,7 @@ def test_it_is_what_a_planner_of_one_segment_after_another_finds(parts: Any, acc
     pace = Pace(60, 1e12, acceleration)
     found = taken(drawn, pace)
     going = sum(
-        2 * math.sqrt(math.dist(a[-1], b[0]) / 1000 / acceleration)
-        for a, b in zip(parts_of(drawn), parts_of(drawn)[1:], strict=False)
+        2 * math.sqrt(math.dist(a[-1], b[0]) / 1000 / acceleration) for a, b in pairwise(parts_of(drawn))
     )
     assert found.seconds == pytest.approx(going + sum(_stepwise(p, pace) for p in parts), rel=1e-4, abs=1e-4)
 
