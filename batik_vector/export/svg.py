@@ -291,8 +291,9 @@ def layer_labels(page: Page) -> tuple[str, list[str]]:
     Inks have the numbers of their pens; what no pen draws begins with ``%``, and its numbers lie far behind.
     """
     guides = sum(plate.guide for plate in page.plates)
+    most = max([len(page.plates) - guides, *(plate.pen for plate in page.plates)])
     last = CLOTH_NUMBER
-    while last - guides <= len(page.plates) - guides:
+    while last - guides <= most:
         last = last * 10 + 9
     pen, guide, labels = 0, last - guides, []
     for plate in page.plates:
@@ -301,7 +302,7 @@ def layer_labels(page: Page) -> tuple[str, list[str]]:
             labels.append(f"%{guide} {label}")
             guide += 1
         else:
-            pen += 1
+            pen = plate.pen or pen + 1
             labels.append(f"{pen} {label}")
     return f"%{last} cloth", labels
 

@@ -8,10 +8,12 @@ from __future__ import annotations
 
 import dataclasses
 import enum
+from dataclasses import field
 from importlib import import_module
 from typing import TYPE_CHECKING, Annotated, ClassVar, TypeAlias
 
-from batik_vector.fields import OneOf, Says, check
+from batik_vector.errors import GeometryError
+from batik_vector.fields import Between, Length, OneOf, Says, check
 from batik_vector.units import format_mm
 from batik_vector.values import frozen
 
@@ -79,14 +81,58 @@ def _spelled(value: object) -> str:
     return str(value)
 
 
+class Once(enum.StrEnum):
+    """Among which strokes what is drawn already is not drawn again."""
+
+    INK = "ink"
+    """Those of the same ink."""
+    ALL = "all"
+    """All: the ink that is drawn first keeps what several share."""
+
+
+class Hidden(enum.StrEnum):
+    """What becomes of strokes under areas of higher inks."""
+
+    KEEP = "keep"
+    """They are drawn."""
+    REMOVE = "remove"
+    """They are not, unless the higher ink overlays what lies beneath it."""
+
+
+Pen = Annotated[int, Between(1, 98)]
+"""A pen's number; 99 is the cloth's."""
+
+
 @frozen(kw_only=True)
 class PlotProcess(ProcessSpec):
-    """Outlines and lines as strokes for a pen, in a good order."""
+    """Outlines and lines as strokes for a pen: each drawn once, joined, with short ways between."""
 
     kind = "plot"
     module = "batik_vector.processes.plot"
 
-    join: Annotated[bool, Says("draw strokes that meet end to end as one")] = True
+    once: Annotated[Once, Says("draw shared stretches once: within an ink (ink), or of all inks (all)")] = (
+        Once.INK
+    )
+    join: Annotated[bool, Says("join strokes that meet to longest paths")] = True
+    hidden: Annotated[
+        Hidden, Says("what lies under areas of higher inks: keep it, or remove it unless they overlay")
+    ] = Hidden.KEEP
+    margin: Annotated[
+        Annotated[Length, Between(0, 100)], Says("how far what is hidden ends before the area that hides it")
+    ] = 0.0
+    edges: Annotated[bool, Says("draw outlines along the page's edges, where these cut marks off")] = False
+    pens: Annotated[dict[str, Pen], Says("pens by inks; other inks have the next numbers that are free")] = (
+        field(default_factory=dict)
+    )
+    width: Annotated[
+        Annotated[Length, Between(0.01, 100)] | None,
+        Says("breadth of the pens' lines; the machine's, or else each ink's"),
+    ] = None
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.margin and self.hidden is Hidden.KEEP:
+            raise GeometryError(f'margin = {format_mm(self.margin)}: expected hidden = "remove" beside it')
 
 
 @frozen(kw_only=True)

@@ -1,7 +1,7 @@
-"""Edges of the page: where they cut an area off, its outline runs along them, and that is no line of the design.
+"""Edges of the page: where they cut an area off, its outline runs along them, which is no line of the design.
 
-On a tile that repeats such a line comes twice, on this edge and on the one opposite, and is left out on both. A
-mark whose own border lies on the edge has no twin there and keeps it.
+On a tile that repeats such a line comes twice, on this edge and on the one opposite, and is left out on both.
+A mark whose own border lies on the edge has no twin there and keeps it.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from batik_vector.geometry.outlines import Index, Outlines
+from batik_vector.geometry.outlines import FAR, Index, Outlines
 from batik_vector.processes.plotting.pieces import Pieces
 from batik_vector.values import frozen
 
@@ -39,14 +39,12 @@ class _Edge:
         ends = np.stack([pieces.begin[which, 1 - axis], pieces.end[which, 1 - axis]])
         return _Edge(which, ends.min(axis=0), ends.max(axis=0))
 
-    def within(self, stretches: Ints | None) -> NDArray[np.bool_]:
+    def within(self, stretches: Ints) -> NDArray[np.bool_]:
         """Return which pieces lie within stretches, of which none parts a piece."""
-        if stretches is None:
-            return np.ones(len(self.which), bool)
         return np.asarray(np.searchsorted(stretches, self.low, "right") % 2 == 1)
 
     def stretches(self, shift: int, period: int) -> Ints:
-        """Return where pieces lie when moved along, and one period to either side: ends of parted stretches."""
+        """Return the ends of the stretches where pieces lie when moved along, and a period to either side."""
         moved = [shift - period, shift, shift + period]
         low, high = (np.concatenate([each + by for by in moved]) for each in (self.low, self.high))
         order = np.argsort(low, kind="stable")
@@ -66,12 +64,13 @@ def without_edges(outlines: Outlines, box: Box, shifts: Shifts | None = None) ->
             opposite edges is left out.
     """
     pieces = Pieces.of(outlines)
-    # (axis, place, stretches to leave out) of each edge; None is all of it.
-    edges = [(axis, box[k], None) for axis in (0, 1) for k in (axis, axis + 2)]
-    if shifts is not None:
+    if shifts is None:
+        whole = np.array([-FAR, FAR], np.int64)
+        edges = [(axis, box[k], whole) for axis in (0, 1) for k in (axis, axis + 2)]
+    else:
         edges = list(_twins(pieces, box, shifts))
-        for axis, place, stretches in edges:
-            pieces = _cut(pieces, axis, place, stretches)
+    for axis, place, stretches in edges:
+        pieces = _cut(pieces, axis, place, stretches)
     stays = np.ones(len(pieces.stroke), bool)
     for axis, place, stretches in edges:
         edge = _Edge.at(pieces, axis, place)

@@ -73,7 +73,7 @@ def _passages(ways: Pieces, covers: NDArray[np.object_]) -> tuple[Index, Array]:
     edge = np.flatnonzero(ring[1:] == ring[:-1])
     lines = shapely.linestrings(np.stack([coords[edge], coords[edge + 1]], axis=1))
     segments = shapely.linestrings(np.stack([ways.begin, ways.end], axis=1).astype(float))
-    which, met = shapely.STRtree(lines).query(segments)
+    which, met = shapely.STRtree(np.asarray(lines, object)).query(segments)
     begin, way = ways.begin[which].astype(float), (ways.end - ways.begin)[which].astype(float)
     p, q = coords[edge[met]], coords[edge[met] + 1]
     side, to = q - p, p - begin

@@ -165,7 +165,7 @@ def _meetings(path_of: Index, shut: NDArray[np.bool_], place: Index) -> Iterator
 def _take_in(
     partner: Index, ends: list[int], path_of: Index, root: list[int], shut: list[bool], heading: Directions
 ) -> None:
-    """Take the closed paths at a place into one of those that they meet there, an open one if there is one."""
+    """Take the closed paths at a place into one that they meet there, an open one if there is any."""
 
     def found(end: int) -> int:
         at = int(path_of[end])

@@ -8,23 +8,17 @@ beside one another's line. Nothing moves by more than that 1 µm, and a line tha
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
 from batik_vector.geometry.outlines import Index, Offsets, Outlines, Steps
-from batik_vector.processes.ordering.distances import PARTS, distances
+from batik_vector.processes.ordering.distances import distances
 from batik_vector.processes.plotting.pieces import Pieces
 from batik_vector.processes.plotting.touching import numbered, pairs, touching
-from batik_vector.units import STEPS_PER_MM
 from batik_vector.values import frozen
 
 REACH = 1
 """How many steps beside one another two stretches may lie that are the same line."""
-
-TOLD = 10
-"""Places that are told of."""
 
 
 @frozen(eq=False)
@@ -38,14 +32,6 @@ class Doubled:
     places: Steps
     source: Index
     length: int
-
-    def facts(self) -> dict[str, Any]:
-        """Return how many stretches were doubled, how many mm that saves, and where the first of them lie."""
-        return {
-            "doubled": len(self.places),
-            "saved_mm": round(self.length / PARTS / STEPS_PER_MM, 3),
-            "doubled_at": [[x / STEPS_PER_MM, y / STEPS_PER_MM] for x, y in self.places[:TOLD].tolist()],
-        }
 
 
 @frozen(eq=False)
@@ -107,8 +93,8 @@ def _cut(pieces: _Numbered, which: Index, upon: Index) -> _Numbered:
     after = np.insert(pieces.start, which + 1, upon)
     end = np.insert(pieces.end, which, upon)
     # A place ends one piece and begins the next.
-    stroke, stays = (np.insert(each, which, each[which]) for each in (pieces.stroke, pieces.stays))
-    return _Numbered(after, end, stroke, stays)
+    stroke = np.insert(pieces.stroke, which, pieces.stroke[which])
+    return _Numbered(after, end, stroke, np.insert(pieces.stays, which, pieces.stays[which]))
 
 
 def _doubled(pieces: _Numbered, places: Steps) -> Doubled:

@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+from fractions import Fraction
+
 import numpy as np
 import pytest
 import shapely
@@ -49,7 +51,7 @@ def test_a_border_of_its_own_stays_as_far_as_it_goes() -> None:
 
 
 def test_a_drop_brings_the_edges_together_elsewhere() -> None:
-    cell = Cell(1000, 800, drop="1/2")
+    cell = Cell(1000, 800, drop=Fraction(1, 2))
     drawn = strokes(bar(0, 600, 300, 700), bar(700, 200, 1000, 300), bar(700, 600, 1000, 700))
     found = without_edges(drawn, BOX, cell.lattice)
     assert found.closed.tolist() == [False, False, True]
@@ -63,7 +65,7 @@ HEIGHTS = st.lists(st.integers(0, 8).map(lambda k: 100 * k), min_size=2, max_siz
 def test_it_is_the_difference_with_the_opposite_edge(
     left: list[int], right: list[int], shift: int, upright: bool
 ) -> None:
-    def bars(ends: list[int], edge: int) -> list[shapely.Geometry]:
+    def bars(ends: list[int], edge: int) -> list[shapely.Polygon]:
         inner = 10 if edge == 0 else edge - 10
         return [
             shapely.box(min(edge, inner), a, max(edge, inner), b)
@@ -90,9 +92,9 @@ def test_it_is_the_difference_with_the_opposite_edge(
 
     for ends, others, by, edge in ((left, right, -shift, 0), (right, left, shift, 1000)):
         line = shapely.LineString([(edge, 0), (edge, 800)] if upright else [(0, edge), (800, edge)])
-        mine = stretches(ends, 0) & shapely.LineString([(0, 0), (800, 0)])
+        mine = shapely.intersection(stretches(ends, 0), shapely.LineString([(0, 0), (800, 0)]))
         assert shapely.intersection(found, line).length == pytest.approx(
-            (mine - stretches(others, by)).length
+            shapely.difference(mine, stretches(others, by)).length
         )
 
 

@@ -28,7 +28,7 @@ def _segments(drawn: Outlines, corners: set[Place]) -> list[tuple[Place, Place]]
         for a, b in pairwise([*points, *points[: int(closed)]]):
             upon = [place for place in corners if _upon(place, a, b)]
             upon.sort(key=lambda place: math.dist(a, place))
-            found += [tuple(sorted(pair)) for pair in pairwise(upon)]
+            found += [(min(pair), max(pair)) for pair in pairwise(upon)]
     return sorted(found)
 
 

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from batik_vector.errors import GeometryError
 from batik_vector.geometry.outlines import Outlines, nothing, to_polylines
+from batik_vector.processes.ordering.distances import PARTS
 from batik_vector.processes.plotting.once import once
 from tests.processes.strokes import box, line, parts_of, strokes
 from tests.thorough import examples, long
@@ -43,7 +44,7 @@ def test_what_is_left_is_the_union(parts: Any) -> None:
     assert len(source) == len(left)
     assert (np.diff(source) >= 0).all()
     given_length = float(shapely.length(to_polylines(drawn)).sum())
-    assert doubled.facts()["saved_mm"] == pytest.approx((given_length - total) / 1000, abs=0.002)
+    assert doubled.length / PARTS == pytest.approx(given_length - total, abs=2)
 
 
 def test_strokes_that_share_nothing_stay_as_they_are() -> None:
@@ -52,7 +53,7 @@ def test_strokes_that_share_nothing_stay_as_they_are() -> None:
     assert parts_of(left) == parts_of(drawn)
     assert left.closed.tolist() == [True, False, True]
     assert source.tolist() == [0, 1, 2]
-    assert doubled.facts() == {"doubled": 0, "saved_mm": 0.0, "doubled_at": []}
+    assert len(doubled.places) == doubled.length == 0
 
 
 def test_the_first_draws_what_it_shares_and_the_place_is_told() -> None:
@@ -61,7 +62,9 @@ def test_the_first_draws_what_it_shares_and_the_place_is_told() -> None:
     assert left.closed.tolist() == [True, False]
     # The second is one line, though it began in a corner elsewhere.
     assert parts_of(left)[1] == [(10_000, -10_000), (30_000, -10_000), (30_000, 10_000), (10_000, 10_000)]
-    assert doubled.facts() == {"doubled": 1, "saved_mm": 20.0, "doubled_at": [[10.0, 0.0]]}
+    assert doubled.places.tolist() == [[10_000, 0]]
+    assert doubled.source.tolist() == [1]
+    assert doubled.length == 20_000 * PARTS
     assert source.tolist() == [0, 1]
 
 
@@ -84,7 +87,7 @@ def test_parts_of_a_slanted_line_are_found_though_their_ends_are_rounded(back: b
         assert shapely.length(to_polylines(left)).sum() == pytest.approx(given_length, rel=1e-6)
         drawn = shapely.unary_union(to_polylines(strokes(*whole)))
         assert shapely.hausdorff_distance(drawn, shapely.multilinestrings(to_polylines(left))) <= 1.0
-        assert doubled.facts()["doubled"] >= len(part) if parts[0] is whole[0] else True
+        assert len(doubled.places) >= len(part) or parts[0] is not whole[0]
 
 
 def test_two_microns_beside_is_another_line() -> None:
