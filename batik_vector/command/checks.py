@@ -146,7 +146,10 @@ def _check_drawing(source: str, wishes: Wishes, tell: Tell) -> Found:
     if promise.broken and recipe.yardage is not None:
         raise _fault(source, "shows the cloth, and not the tile that fills it: check its recipe instead")
     certificate = _certified(source, reading.artwork, wishes, asked_group(recipe))
-    return _drawing_found(source, reading, certificate, promise, notes)
+    processes = read_provenance(source).processes
+    if processes:
+        notes.append(f"went through {', then '.join(processes)}: it is not compared with its recipe")
+    return _drawing_found(source, reading, certificate, promise, notes, compared=not processes)
 
 
 def _as_promised(source: str, reading: Reading, promise: Promise) -> tuple[Reading, Promise]:
@@ -212,10 +215,12 @@ def _drawing_found(
     certificate: Certificate,
     promise: Promise | None = None,
     notes: Sequence[str] = (),
+    *,
+    compared: bool = True,
 ) -> Found:
     artwork = reading.artwork
     broken = list(promise.broken) if promise else []
-    apart = differences(artwork, promise.artwork) if promise and not broken else []
+    apart = differences(artwork, promise.artwork) if promise and compared and not broken else []
     facts = inspect(artwork)
     for told, layer in zip(facts["layers"], artwork.layers, strict=True):
         told["covers"] = round(certificate.covers[layer.ink.name], 6)

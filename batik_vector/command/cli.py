@@ -203,12 +203,15 @@ def _made(work: Sequence[Job], workers: int, quiet: bool, report: dict[str, Any]
 
 
 def _tell_files(done: dict[str, Any]) -> None:
+    from batik_vector.command.process_reports import told_of
+    from batik_vector.command.reports import made_of
+
     for file in done["files"]:
         width, height = (f"{side:g}" for side in file["size_mm"])
         size = _bytes(file["bytes"])
         click.echo(f"{file['path']}  {size}  {width} × {height} mm  {file['seconds']:.2f} s", err=True)
-    from batik_vector.command.reports import made_of
-
+        for words in told_of(file.get("process", {})):
+            click.echo(f"  {words}", err=True)
     for words in done["warnings"]:
         click.echo(f"{done['recipe']}: warning: {words}", err=True)
     for words in made_of(done):

@@ -138,7 +138,8 @@ def _costs(tools: Sequence[Tool], motion: Motion) -> dict[str, Any]:
     pace = Pace(motion.draw_speed, motion.travel_speed, motion.acceleration, motion.lift)
     drawing = [tool for tool in tools if not tool.guide]
     each = [(tool, taken(tool.strokes, pace)) for tool in drawing]
-    changes = sum(one.pen != other.pen for one, other in pairwise(drawing))
+    busy = [tool.pen for tool in drawing if len(tool.strokes)]
+    changes = sum(one != other for one, other in pairwise(busy))
     pens = [
         {
             "pen": tool.pen,

@@ -1,0 +1,70 @@
+"""Reports of processes in words: what `batik-vector compile` prints for people of strokes, way and time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any
+
+from batik_vector.units import format_mm
+
+Facts = Mapping[str, Any]
+
+
+def told_of(facts: Facts) -> Iterator[str]:
+    """Yield in lines what the processes that a file went through have to report."""
+    for kind, tell in _TOLD.items():
+        if kind in facts:
+            yield from tell(facts[kind])
+
+
+def _plot(facts: Facts) -> Iterator[str]:
+    yield f"{_work(facts)}{_changes(facts['pen_changes'])}"
+    if len(facts["pens"]) > 1:
+        for each in facts["pens"]:
+            yield f"pen {each['pen']}, {each['ink']}: {_work(each)}"
+    doubled = facts["doubled"]
+    if doubled["places"]:
+        first = doubled["places"][0]
+        x, y = first["at_mm"]
+        yield (
+            f"{_counted(doubled['stretches'], 'stretch', 'stretches')} drawn already left out, "
+            f"{metres(doubled['saved_mm'])}; the first at {x:.3f}, {y:.3f} mm ({first['ink']})"
+        )
+    if facts.get("hidden_mm"):
+        yield f"{metres(facts['hidden_mm'])} hidden under higher inks left out"
+
+
+def _work(facts: Facts) -> str:
+    if not facts["strokes"]:
+        return "nothing is left to draw"
+    strokes = _counted(facts["strokes"], "stroke", "strokes")
+    return (
+        f"{strokes}, {metres(facts['drawn_mm'])} drawn, {metres(facts['travel_mm'])} between them, "
+        f"about {duration(facts['seconds'])}"
+    )
+
+
+def _changes(count: int) -> str:
+    return f" with {_counted(count, 'change', 'changes')} of pen" if count else ""
+
+
+def _counted(count: int, one: str, many: str) -> str:
+    return f"{count:,} {one if count == 1 else many}"
+
+
+def metres(mm: float) -> str:
+    """Return a way in m, or in mm where it is short of one."""
+    return f"{mm / 1000:,.2f} m" if mm >= 1000 else f"{format_mm(round(mm, 1))} mm"
+
+
+def duration(seconds: float) -> str:
+    """Return a time in the two largest units that it has: ``"2 h 5 min"``."""
+    whole = round(seconds)
+    hours, minutes = divmod(whole // 60, 60)
+    if hours:
+        return f"{hours:,} h {minutes} min"
+    return f"{minutes} min {whole % 60} s" if minutes else f"{whole} s"
+
+
+_TOLD: dict[str, Callable[[Facts], Iterator[str]]] = {"plot": _plot}
+"""What tells of each process, by its kind."""
