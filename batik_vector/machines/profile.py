@@ -10,6 +10,7 @@ from dataclasses import field
 from typing import Annotated
 
 from batik_vector.fields import Between, Length, Says, check
+from batik_vector.machines.limits import Limits
 from batik_vector.values import frozen
 
 Side = Annotated[Length, Between(1, 1_000_000)]
@@ -42,24 +43,6 @@ class Motion:
     acceleration: Annotated[float, Between(0.1, 1_000_000), Says("mm per second squared")] = 1000.0
     lift: Annotated[float, Between(0, 60), Says("seconds to lift and lower the tool once")] = 0.2
     tool_change: Annotated[float, Between(0, 3600), Says("seconds to change the tool")] = 0.0
-
-    def __post_init__(self) -> None:
-        check(self)
-
-
-@frozen(kw_only=True)
-class Limits:
-    """What it can still draw; what is left out is not measured."""
-
-    narrowest_line: Annotated[
-        Annotated[Length, Between(0.001, 100)] | None, Says("least breadth of a line or a neck")
-    ] = None
-    narrowest_gap: Annotated[
-        Annotated[Length, Between(0.001, 100)] | None, Says("least bare gap between marks")
-    ] = None
-    smallest_hole: Annotated[
-        Annotated[Length, Between(0.001, 100)] | None, Says("least breadth of a hole")
-    ] = None
 
     def __post_init__(self) -> None:
         check(self)

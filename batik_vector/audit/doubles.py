@@ -1,0 +1,114 @@
+"""Doubles: stretches of straight line that are drawn more than once, by whatever ink, to the bit or nearly.
+
+Two edges lie on one straight line where their directions in lowest terms and their offsets from the origin
+are the same whole numbers; of those on one line, what overlaps is drawn twice.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from batik_vector.audit.contours import Floats, Mask
+from batik_vector.geometry.outlines import Index
+from batik_vector.values import frozen
+
+Ints = NDArray[np.int64]
+
+
+@frozen(eq=False)
+class Doubles:
+    """Stretches drawn again: by the edge ``again``, which ``first`` drew, from ``begin`` to ``end`` in steps."""
+
+    again: Index
+    first: Index
+    begin: Floats
+    end: Floats
+
+
+def doubles(begin: Floats, end: Floats) -> Doubles:
+    """Return what edges (whole steps, shape (n, 2)) draw again of what others drew.
+
+    Every stretch is told once for each time that it is drawn again, of the edges with the later numbers.
+    """
+    a, b = np.rint(begin).astype(np.int64), np.rint(end).astype(np.int64)
+    suspects = np.flatnonzero(_shared(_hashes(a, b)) & (a != b).any(axis=1))
+    a, b = a[suspects], b[suspects]
+    way, offset = _line(a, b)
+    low, high = _along(a, b, way)
+    order = np.lexsort((suspects, low, offset, way[:, 1], way[:, 0]))
+    return _overlaps(order, way, offset, low, high, a, suspects)
+
+
+def _line(a: Ints, b: Ints) -> tuple[Ints, Ints]:
+    """Return the direction of edges in lowest terms, to the right or up, and the offset of their line."""
+    step = b - a
+    step = step // np.maximum(np.gcd(step[:, 0], step[:, 1]), 1)[:, None]
+    back = (step[:, 0] < 0) | ((step[:, 0] == 0) & (step[:, 1] < 0))
+    step[back] *= -1
+    return step, step[:, 0] * a[:, 1] - step[:, 1] * a[:, 0]
+
+
+def _hashes(a: Ints, b: Ints) -> NDArray[np.uint64]:
+    """Return a number for each edge's line: equal lines have equal numbers, others hardly ever."""
+    way, offset = _line(a, b)
+    mixed = way[:, 0].astype(np.uint64) * np.uint64(0x9E3779B97F4A7C15)
+    mixed ^= way[:, 1].astype(np.uint64) * np.uint64(0xC2B2AE3D27D4EB4F)
+    mixed ^= offset.astype(np.uint64) * np.uint64(0x165667B19E3779F9)
+    return np.asarray(mixed ^ (mixed >> np.uint64(29)))
+
+
+def _shared(numbers: NDArray[np.uint64]) -> Mask:
+    """Return which numbers occur more than once."""
+    order = np.argsort(numbers)
+    ordered = numbers[order]
+    same = ordered[1:] == ordered[:-1]
+    found = np.zeros(len(numbers), bool)
+    found[order[1:][same]] = True
+    found[order[:-1][same]] = True
+    return found
+
+
+def _along(a: Ints, b: Ints, way: Ints) -> tuple[Ints, Ints]:
+    """Return where edges begin and end along their lines, in multiples of their direction."""
+    axis = np.where(np.abs(way[:, 0]) >= np.abs(way[:, 1]), 0, 1)
+    rows = np.arange(len(a))
+    ends = np.stack([a[rows, axis], b[rows, axis]])
+    flip = np.where(way[rows, axis] < 0, -1, 1)
+    ends = np.sort(ends * flip, axis=0)
+    return ends[0], ends[1]
+
+
+def _overlaps(order: Index, way: Ints, offset: Ints, low: Ints, high: Ints, a: Ints, names: Index) -> Doubles:
+    """Return the overlaps of edges in the order of their lines and beginnings."""
+    same = np.append((np.diff(way[order], axis=0) == 0).all(axis=1) & (np.diff(offset[order]) == 0), False)
+    one, other = [], []
+    # Each with the next, with the next but one, and so on, as long as any two overlap.
+    left = np.arange(len(order))
+    for apart in range(1, len(order)):
+        left = left[left + apart < len(order)]
+        linked = same[left + apart - 1]
+        left = left[linked]
+        meets = low[order[left + apart]] < high[order[left]]
+        if not len(left):
+            break
+        one.append(order[left[meets]])
+        other.append(order[left[meets] + apart])
+        left = left[meets]
+    if not one:
+        nothing = np.empty(0, np.intp)
+        return Doubles(nothing, nothing, np.empty((0, 2)), np.empty((0, 2)))
+    p, q = np.concatenate(one), np.concatenate(other)
+    first, last = np.maximum(low[p], low[q]), np.minimum(high[p], high[q])
+    begin, end = (_at(a[p], way[p], each) for each in (first, last))
+    later, earlier = np.maximum(names[p], names[q]), np.minimum(names[p], names[q])
+    return Doubles(later, earlier, begin, end)
+
+
+def _at(a: Ints, way: Ints, along: Ints) -> Floats:
+    """Return the places on edges' lines that lie so far along them."""
+    axis = np.where(np.abs(way[:, 0]) >= np.abs(way[:, 1]), 0, 1)
+    rows = np.arange(len(a))
+    flip = np.where(way[rows, axis] < 0, -1, 1)
+    share = (along * flip - a[rows, axis]) / way[rows, axis]
+    return np.asarray(a + way * share[:, None])
