@@ -57,7 +57,7 @@ bench: $(TOOLS_READY) $(PEERS_READY) ## time everything beside its peers, and wr
 golden: $(TOOLS_READY) ## draw the pictures of samples and starters and the gallery again, and measure them for the library
 	$(PY) -m tools.golden
 
-docs: $(TOOLS_READY) ## write docs/recipe.md, docs/architecture.md and the features in docs/library.md from the program
+docs: $(TOOLS_READY) ## write docs/recipe.md, docs/architecture.md and the tables in docs/library.md and docs/audit.md from the program
 	$(PY) tools/reference.py
 	$(PY) -m tools.house
 

@@ -28,6 +28,10 @@ def test_the_features_on_the_librarys_page_are_those_that_are_measured() -> None
     assert reference.LIBRARY.read_text(encoding="utf-8") == reference.library_page(), "run make docs"
 
 
+def test_the_machines_on_the_audits_page_are_those_that_come_along() -> None:
+    assert reference.AUDIT.read_text(encoding="utf-8") == reference.audit_page(), "run make docs"
+
+
 def test_the_page_on_the_house_is_up_to_date() -> None:
     assert house.PAGE.read_text(encoding="utf-8") == house.page(), "run make docs"
     assert house.PICTURE.read_text(encoding="utf-8") == house.picture(), "run make docs"

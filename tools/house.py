@@ -40,7 +40,7 @@ FLOORS: Floors = _floors(
     "tiling export",
     "importing",
     "recipe certificate",
-    "compiling drafting analysis",
+    "compiling drafting analysis audit",
     "making",
     "__init__",
     "library",

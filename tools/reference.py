@@ -1,6 +1,6 @@
 """Write docs/recipe.md from the program itself: every key, its bounds, its default and its help.
 
-So is the table of features in docs/library.md.
+So are the table of features in docs/library.md and that of machines in docs/audit.md.
 
 Bounds and help are said once, beside the attribute they belong to; this page is read off them.
 ``python tools/reference.py`` writes it, ``--check`` tells whether it is stale.
@@ -28,7 +28,7 @@ from batik_vector.geometry.curves import CURVES, AttractorMap, FractalName, Orig
 from batik_vector.geometry.maps import VARIATIONS
 from batik_vector.geometry.regions import FillRule
 from batik_vector.library.features import FEATURES
-from batik_vector.machines import Limits, Machine, Motion, Tool
+from batik_vector.machines import MACHINES, Limits, Machine, Motion, Tool, Twice
 from batik_vector.processes.options import PROCESSES
 from batik_vector.recipe.border import BorderSpec, Corner, Ends, Facing, RailSpec
 from batik_vector.recipe.drawing import Dressing, Svg
@@ -49,6 +49,7 @@ from batik_vector.recipe.motif import (
 )
 from batik_vector.recipe.motifs.composing import Composed, Isen, Plate
 from batik_vector.recipe.outputs import OUTPUTS
+from batik_vector.recipe.reading.machines import read_machine
 from batik_vector.tiling.cloth.spec import Align, Edge
 from batik_vector.tiling.layouts import LAYOUTS, Clear, MapSpec, Spot, Term
 from batik_vector.tiling.symmetry.friezes import FRIEZES
@@ -316,11 +317,40 @@ def library_page() -> str:
     return f"{head}{BEGIN}\n\n{table}\n\n{END}{rest.partition(END)[2]}"
 
 
+AUDIT = PAGE.with_name("audit.md")
+FIRST, LAST = "<!-- machines: written by `make docs` -->", "<!-- end of machines -->"
+
+
+def audit_page() -> str:
+    """Return the page on the audit, with its table of machines that set any limit."""
+    head, _, rest = AUDIT.read_text(encoding="utf-8").partition(FIRST)
+    names = [field.name for field in dataclasses.fields(Limits) if field.name != "repeats"]
+    lines = [
+        f"| machine | {' | '.join(f'`{name}`' for name in names)} | `size` |",
+        f"| --- | {'--- | ' * len(names)}--- |",
+    ]
+    for machine in MACHINES:
+        profile = read_machine(machine)
+        if profile.limits == Limits():
+            continue
+        cells = [_limit(getattr(profile.limits, name)) for name in names]
+        size = " × ".join(map(format_mm, profile.size)) if profile.size else ""
+        lines.append(f"| `{machine}` {profile.says} | {' | '.join(cells)} | {size} |")
+    table = "\n".join(lines)
+    return f"{head}{FIRST}\n\n{table}\n\n{LAST}{rest.partition(LAST)[2]}"
+
+
+def _limit(value: Any) -> str:
+    if value is None or value is False or value == Twice.NO:
+        return ""
+    return "yes" if value is True else format_mm(value) if isinstance(value, float) else str(value)
+
+
 def main() -> int:
     """Write the pages, or say which of them are stale."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--check", action="store_true", help="write nothing; exit 1 when a page is stale")
-    made = {PAGE: page(), LIBRARY: library_page()}
+    made = {PAGE: page(), LIBRARY: library_page(), AUDIT: audit_page()}
     if parser.parse_args().check:
         stale = [
             path.name

@@ -29,8 +29,8 @@ class Chords:
 
     ``there`` is the translate next to ``here``, ``moved`` how far it was moved. They are ``apart``; ``along``
     is how far both may be moved to and fro before that changes. ``width`` is what lies between: the
-    distance, less the ink of centre lines. ``inked`` tells chords through ink from those over bare ground. ``from_one`` and
-    ``from_other`` are how far along their contours the ends lie.
+    distance, less the ink of centre lines. ``inked`` tells chords through ink from those
+    over bare ground. ``from_one`` and ``from_other`` are how far along their contours the ends lie.
     """
 
     one: Index

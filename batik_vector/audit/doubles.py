@@ -1,4 +1,4 @@
-"""Doubles: stretches of straight line that are drawn more than once, by whatever ink, to the bit or nearly.
+"""Doubles: stretches of straight line that are drawn more than once, by whatever ink.
 
 Two edges lie on one straight line where their directions in lowest terms and their offsets from the origin
 are the same whole numbers; of those on one line, what overlaps is drawn twice.
@@ -18,7 +18,7 @@ Ints = NDArray[np.int64]
 
 @frozen(eq=False)
 class Doubles:
-    """Stretches drawn again: by the edge ``again``, which ``first`` drew, from ``begin`` to ``end`` in steps."""
+    """Stretches drawn again: by the edge ``again`` what ``first`` drew, from ``begin`` to ``end`` (steps)."""
 
     again: Index
     first: Index

@@ -26,35 +26,40 @@ class DrawnInk:
     contours: Contours
 
 
-def drawn(artwork: Artwork) -> tuple[Frame, list[DrawnInk]]:
+def drawn(artwork: Artwork, cuts: bool = False) -> tuple[Frame, list[DrawnInk]]:
     """Return the page in steps, and what each ink draws on it.
+
+    Args:
+        artwork: a tile.
+        cuts: whether lines are cuts, which have no breadth.
 
     Raises:
         GeometryError: where a coordinate is not finite.
     """
     loose = isinstance(artwork, RawArtwork) or artwork.bleed > 0
     if loose or any(layer.ink.overlap == Overlap.OVERLAY for layer in artwork.layers):
-        return _joined(artwork)
+        return _joined(artwork, cuts)
     frame = Frame(artwork.cell, STEPS_PER_MM, True)
-    return frame, [_as_is(layer, artwork, frame) for layer in artwork.layers]
+    return frame, [_as_is(layer, artwork, frame, cuts) for layer in artwork.layers]
 
 
-def _as_is(layer: Layer, artwork: Artwork, frame: Frame) -> DrawnInk:
+def _as_is(layer: Layer, artwork: Artwork, frame: Frame, cuts: bool) -> DrawnInk:
     areas, lines = of_polygons(layer.areas, MM), of_polylines(layer.lines, MM)
     own = _borders(artwork, layer.ink.name, 1)
-    width = layer.ink.width
-    return DrawnInk(layer.ink.name, width, contours(areas, lines, width, frame, own))
+    body = 0.0 if cuts else layer.ink.width
+    return DrawnInk(layer.ink.name, layer.ink.width, contours(areas, lines, body, frame, own))
 
 
-def _joined(artwork: Artwork) -> tuple[Frame, list[DrawnInk]]:
+def _joined(artwork: Artwork, cuts: bool) -> tuple[Frame, list[DrawnInk]]:
     tile = drawing(artwork)
     frame = tile.frame
     inks = []
     for ink in tile:
         areas = of_polygons(np.asarray(shapely.orient_polygons(ink.areas), dtype=object))
         own = _borders(artwork, ink.ink.name, frame.per_mm // STEPS_PER_MM)
-        lines, width = _polylines(ink.strokes), ink.ink.width
-        inks.append(DrawnInk(ink.ink.name, width, contours(areas, lines, width, frame, own)))
+        body = 0.0 if cuts else ink.ink.width
+        joined = contours(areas, _polylines(ink.strokes), body, frame, own)
+        inks.append(DrawnInk(ink.ink.name, ink.ink.width, joined))
     return frame, inks
 
 

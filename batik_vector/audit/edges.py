@@ -11,7 +11,7 @@ from batik_vector.values import frozen
 
 @frozen(eq=False)
 class Edges:
-    """Edges of contours: from ``begin`` to ``end``, shape (n, 2); -1 where none comes ``before`` or ``after``.
+    """Edges of contours, from ``begin`` to ``end``, shape (n, 2); -1 where none is ``before`` or ``after``.
 
     ``contour`` and ``travel`` say on which contour each begins, and how far along it, in steps. ``idle``
     ones are no edges: the points at which lines end.

@@ -12,8 +12,9 @@ import numpy as np
 import shapely
 
 from batik_vector.artwork import Geometries
-from batik_vector.audit.chords import Chords, Edges
+from batik_vector.audit.chords import Chords
 from batik_vector.audit.contours import Contours, Floats, Mask
+from batik_vector.audit.edges import Edges
 from batik_vector.audit.stretches import AROUND
 from batik_vector.geometry.outlines import Index
 from batik_vector.tiling.welding.weld import components
@@ -45,7 +46,9 @@ class Search:
     def circuit(self) -> Floats:
         """The length of each contour, in steps."""
         step = self.edges.end - self.edges.begin
-        return np.bincount(self.edges.contour, np.hypot(*step.T), minlength=len(self.contours))
+        return np.asarray(
+            np.bincount(self.edges.contour, np.hypot(*step.T), minlength=len(self.contours)), np.float64
+        )
 
 
 def counting(found: Chords, search: Search) -> Chords:

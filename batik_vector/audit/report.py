@@ -36,21 +36,6 @@ class Kind(enum.StrEnum):
     """Nodes follow too closely on one another."""
 
 
-NAMES = {
-    Kind.SIZE: "larger than the machine",
-    Kind.OPEN: "open paths",
-    Kind.DOUBLE: "paths drawn again",
-    Kind.SLIVER: "slivers",
-    Kind.LINE: "narrow lines",
-    Kind.GAP: "narrow gaps",
-    Kind.HOLE: "small holes",
-    Kind.NODES: "crowded nodes",
-}
-
-AT_MOST = (Kind.SIZE, Kind.NODES)
-"""Kinds whose limit is what is allowed at most; of the others it is the least that is."""
-
-
 @frozen
 class Finding:
     """One thing that a machine would fail at.
@@ -78,12 +63,21 @@ class Finding:
 
 @frozen
 class Group:
-    """Findings of one kind and ink: how many there are, and the worst of them."""
+    """Findings of one kind and ink, the worst first."""
 
     kind: Kind
     ink: str
-    count: int
-    worst: Finding
+    findings: tuple[Finding, ...]
+
+    @property
+    def count(self) -> int:
+        """How many there are."""
+        return len(self.findings)
+
+    @property
+    def worst(self) -> Finding:
+        """The worst of them."""
+        return self.findings[0]
 
 
 @frozen(kw_only=True)
@@ -108,7 +102,7 @@ class Audit:
         known: dict[tuple[Kind, str], list[Finding]] = {}
         for each in self.findings:
             known.setdefault((each.kind, each.ink), []).append(each)
-        return tuple(Group(kind, ink, len(each), each[0]) for (kind, ink), each in known.items())
+        return tuple(Group(kind, ink, tuple(each)) for (kind, ink), each in known.items())
 
     def as_dict(self) -> dict[str, Any]:
         """Return everything as plain values for JSON, in a fixed order."""

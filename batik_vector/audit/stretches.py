@@ -1,4 +1,4 @@
-"""Stretches: runs of edges about as long as a reach, among which neighbours are found before edges are compared.
+"""Stretches: runs of edges about as long as a reach, whose neighbours are found before edges are compared.
 
 A tree of stretches is small beside one of edges. And most that lie close follow one another on a smooth
 outline: of those it is enough to know how much it turns. An arc that turns by less than π in all is no longer
@@ -44,13 +44,15 @@ class Turning:
     circuit: Floats
 
     def little(self, edges: Edges, one: Index, last: Index, other: Index, end: Index) -> Mask:
-        """Return which runs, from edge ``one`` to ``last`` and from ``other`` on to ``end``, are on one smooth arc.
+        """Return which runs, edges ``one`` to ``last`` and ``other`` to ``end``, are on one smooth arc.
 
-        Such an arc turns too little to come near itself. The second run does not come before the first.
+        It turns too little to come near itself. The second run does not come before the first.
         """
         between = self.begin[end] - self.begin[one]
         behind = self.circuit[one] - (self.begin[other] - self.begin[last])
-        return (edges.contour[one] == edges.contour[other]) & (np.minimum(between, behind) < TURNING)
+        return np.asarray(
+            (edges.contour[one] == edges.contour[other]) & (np.minimum(between, behind) < TURNING)
+        )
 
 
 def turning(edges: Edges) -> Turning:
@@ -148,7 +150,7 @@ def _may_meet(edges: Edges, a: Index, b: Index, moved: Floats, reach: float) -> 
             np.maximum(np.minimum(p, q), np.minimum(r, s))
             <= np.minimum(np.maximum(p, q), np.maximum(r, s)) + reach
         )
-    return close & ~edges.idle[a] & ~edges.idle[b]
+    return np.asarray(close & ~edges.idle[a] & ~edges.idle[b])
 
 
 def _translates(box: Floats, reach: float, frame: Frame) -> tuple[Index, Floats]:

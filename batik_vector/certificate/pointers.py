@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 import shapely
 
 from batik_vector.artwork import Artwork, Cell, Geometries, Ink, Layer, Overlap, violations
-from batik_vector.certificate.report import Certificate
+from batik_vector.certificate.report import Certificate, Place
 from batik_vector.geometry.regions import oriented
 from batik_vector.tiling.torus.torus import (
     Window,
@@ -35,16 +36,16 @@ STROKE = 0.12
 SEGMENTS = 48
 
 
-def pointers(artwork: Artwork, certificate: Certificate) -> Artwork:
-    """Return the artwork with a layer "check" on top: a ring, a cross-hair and an arrow at each fault and
-    each remark.
+def pointers(artwork: Artwork, certificate: Certificate, also: Sequence[Place] = ()) -> Artwork:
+    """Return the artwork with a layer "check" on top: a ring, a cross-hair and an arrow at each fault, each
+    remark, and each of some other places (mm).
 
     What lies on an edge of the page is marked on the opposite edge too. The marks stay on the page. An
     artwork that is not in the normal form is brought to it, as exporters ask. Where nothing is wrong, no
     layer is added.
     """
     artwork = artwork if not violations(artwork) else _tidied(artwork)
-    lines, breadth = pointer_lines(artwork.cell, certificate)
+    lines, breadth = pointer_lines(artwork.cell, certificate, also)
     if not len(lines):
         return artwork
     taken = {layer.ink.name for layer in artwork.layers}
@@ -55,10 +56,12 @@ def pointers(artwork: Artwork, certificate: Certificate) -> Artwork:
     return replace(artwork, layers=(*artwork.layers, layer))
 
 
-def pointer_lines(cell: Cell, certificate: Certificate) -> tuple[Geometries, float]:
+def pointer_lines(
+    cell: Cell, certificate: Certificate, also: Sequence[Place] = ()
+) -> tuple[Geometries, float]:
     """Return the lines (mm) that point at all that is wrong on a page, and their breadth in mm."""
-    told = (*certificate.faults, *certificate.remarks)
-    places = sorted({place for fault in told for place in _shown(fault.where, cell)})
+    told = [fault.where for fault in (*certificate.faults, *certificate.remarks)]
+    places = sorted({place for where in (*told, *also) for place in _shown(where, cell)})
     radius = RADIUS * min(cell.width, cell.height)
     middle = cell.width / 2, cell.height / 2
     marks = [mark for place in places for mark in _mark(place, middle, radius)]

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from batik_vector.artwork import Artwork
+from batik_vector.audit import Audit, audit
 from batik_vector.certificate import Asked, Certificate, Kind, Limits, certify, pointers
 from batik_vector.certificate.pointers import COLOUR, NAME, pointer_lines
 from batik_vector.command.carried_recipes import Promise, bled, differences, promised
@@ -26,6 +27,7 @@ from batik_vector.geometry.paths.matrix import Matrix
 from batik_vector.importing.document import load
 from batik_vector.importing.overlay import laid_over
 from batik_vector.importing.svg import Reading, read_svg
+from batik_vector.machines import Machine
 from batik_vector.making.jobs import Job, made, read_jobs, warnings
 from batik_vector.making.promised import asked_group
 from batik_vector.recipe.loading import read_recipe
@@ -34,6 +36,7 @@ from batik_vector.recipe.reading.sources import is_compiled, stem_of
 from batik_vector.tiling.symmetry.groups import group
 from batik_vector.tiling.symmetry.machine_fit import per_cent
 from batik_vector.tiling.symmetry.repeats import parse_repeat
+from batik_vector.units import STEPS_PER_MM
 from batik_vector.values import frozen
 
 Tell = Callable[[str], None]
@@ -45,13 +48,16 @@ class Wishes:
 
     ``repeat`` is how drawings without a recipe stand to one another, ``group`` the symmetry that is asked
     for; both are empty where the call does not say. ``limits`` are those that it gives, by name. ``lenient``
-    lets pass what cannot be measured.
+    lets pass what cannot be measured. ``machine`` is what drawings are held to besides, under the name that
+    the call gives it.
     """
 
     repeat: str = ""
     group: str = ""
     limits: Mapping[str, float] = field(default_factory=dict)
     lenient: bool = False
+    machine: Machine | None = None
+    machine_name: str = ""
 
     def __post_init__(self) -> None:
         if self.group:
@@ -82,6 +88,7 @@ class Found:
     certificate: Certificate
     facts: dict[str, Any]
     onto: Matrix | None = None
+    audit: Audit | None = None
 
     @property
     def passed(self) -> bool:
@@ -100,7 +107,7 @@ def check_source(source: str, overrides: Sequence[str], wishes: Wishes, tell: Te
         if overrides:
             words = f"is measured as it is drawn, which --set {overrides[0]} cannot change: give its recipe"
             raise _fault(source, words)
-        return _check_drawing(source, wishes, tell)
+        return _audited(_check_drawing(source, wishes, tell), wishes, tell)
     return _check_recipe(source, overrides, wishes, tell)
 
 
@@ -122,7 +129,26 @@ def _check_recipe(source: str, overrides: Sequence[str], wishes: Wishes, tell: T
     notes = _left_aside(wishes)
     if is_compiled(source):
         notes.append("the recipe that it carries was checked, not what the file draws")
-    return _found(job, artwork, certificate, facts, checked="recipe", notes=notes)
+    found = _found(job, artwork, certificate, facts, checked="recipe", notes=notes)
+    return _audited(found, wishes, tell, _cloth_of(job.recipe, artwork, wishes))
+
+
+def _audited(found: Found, wishes: Wishes, tell: Tell, page: tuple[float, float] | None = None) -> Found:
+    """Hold what was measured to a machine, if the call names one."""
+    if wishes.machine is None:
+        return found
+    tell("auditing")
+    told = audit(found.artwork, wishes.machine, name=wishes.machine_name, page=page)
+    facts = found.facts | {"audit": told.as_dict(), "passed": found.facts["passed"] and told.passed}
+    return replace(found, facts=facts, audit=told)
+
+
+def _cloth_of(recipe: Recipe, tile: Artwork, wishes: Wishes) -> tuple[float, float] | None:
+    """Return the size (mm) of the cloth that a machine makes of a recipe; None where it makes the tile."""
+    if recipe.yardage is None or wishes.machine is None or wishes.machine.limits.repeats:
+        return None
+    width, length = recipe.yardage.size(tile.cell)
+    return width / STEPS_PER_MM, length / STEPS_PER_MM
 
 
 def _check_drawing(source: str, wishes: Wishes, tell: Tell) -> Found:
@@ -291,14 +317,26 @@ def pointer_files(sources: Sequence[str], folder: Path) -> dict[str, Path]:
     return places
 
 
+MOST_POINTED = 12
+"""Findings of one kind and ink, the worst ones, that are pointed at: more would hide the drawing."""
+
+
+def _places(found: Found) -> list[tuple[float, float]]:
+    """Return the places of the worst findings of an audit."""
+    if found.audit is None:
+        return []
+    return [each.where for group in found.audit.groups for each in group.findings[:MOST_POINTED]]
+
+
 def _pointed_at(found: Found) -> bytes:
     """Return a drawing with marks at its faults: the file itself, as far as it can be left as it is."""
+    also = _places(found)
     if found.onto is not None:
-        lines, breadth = pointer_lines(found.artwork.cell, found.certificate)
+        lines, breadth = pointer_lines(found.artwork.cell, found.certificate, also)
         shown = laid_over(load(found.source)[0], found.onto, lines, breadth, COLOUR, NAME)
         if shown is not None:
             return shown
-    return render(pointers(found.artwork, found.certificate), "svg", check=False)
+    return render(pointers(found.artwork, found.certificate, also), "svg", check=False)
 
 
 def write_pointers(found: Sequence[Found], places: dict[str, Path]) -> list[Path]:
@@ -312,7 +350,7 @@ def write_pointers(found: Sequence[Found], places: dict[str, Path]) -> list[Path
     """
     files = []
     for each in found:
-        if each.certificate.faults or each.certificate.remarks:
+        if each.certificate.faults or each.certificate.remarks or _places(each):
             files.append((places[each.source], _pointed_at(each)))
     try:
         for path, _ in files:

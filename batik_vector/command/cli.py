@@ -249,6 +249,7 @@ def _limit(name: str, metavar: str, says: str, option: str = "") -> Callable[[An
 @_limit("striping", "%", "Unevenness of columns or rows that is a fault; without it none is.")
 @click.option("--lenient", is_flag=True, help="Let pass what cannot be measured, such as blended colours.")
 @click.option("--pointers", metavar="DIR", help="Write NAME-check.svg with a mark at each fault.")
+@click.option("--machine", metavar="NAME", help="Hold them to a machine: a profile's name, or FILE.toml.")
 @json_option
 def check_command(
     sources: Sequence[str],
@@ -256,6 +257,7 @@ def check_command(
     repeat: str | None,
     group: str | None,
     pointers: str | None,
+    machine: str | None,
     lenient: bool,
     as_json: bool,
     **limits: float | None,
@@ -263,7 +265,9 @@ def check_command(
     """Certify tiles: do opposite edges meet, is anything drawn twice, which symmetry is there?
 
     A recipe is compiled and measured. An SVG, whoever drew it, is measured as it is drawn, its page being
-    the tile. Nothing is written but what --pointers asks for. Exits with 1 where a tile has faults.
+    the tile. --machine also asks what a machine would fail at: lines and gaps too narrow, slivers, paths
+    open or drawn again. Nothing is written but what --pointers asks for. Exits with 1 where a tile has
+    faults.
     """
     from pathlib import Path
 
@@ -273,7 +277,8 @@ def check_command(
     collecting()
     with reported(as_json) as report:
         given = {name: value for name, value in limits.items() if value is not None}
-        wishes = Wishes(repeat or "", group or "", given, lenient)
+        profile = _called((), machine).get("machine_profile")
+        wishes = Wishes(repeat or "", group or "", given, lenient, profile, machine or "")
         places = pointer_files(sources, Path(pointers)) if pointers is not None else {}
         found = []
         with stages(as_json) as tell:

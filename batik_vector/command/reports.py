@@ -30,17 +30,23 @@ def told(facts: dict[str, Any]) -> list[str]:
         wrong = [*wrong[:MOST_FAULTS], f"  and {count - MOST_FAULTS} more: --json tells them all"]
     lines += wrong
     lines += _remarks(facts["certificate"])
+    audited = facts.get("audit")
+    lines += _audited(audited) if audited else []
     lines += [f"  hint: {words}" for words in facts["certificate"]["hints"]]
     lines += [f"  not measured: {words}" for words in facts["certificate"]["unmeasured"]]
     lines += [f"  differs: {words}" for words in facts["differences"]]
     lines += [f"  warning: {words}" for words in facts["warnings"]]
     lines += [f"  note: {words}" for words in facts["notes"]]
+    many = f"{count} fault{'s' if count != 1 else ''}" if count else ""
     if facts["passed"]:
         lines.append(f"{source}: passed{_passed(facts['certificate'])}")
+    elif audited and not audited["passed"]:
+        failed = f"{len(audited['findings']):,} findings for {audited['machine']}"
+        lines.append(f"{source}: FAILED: {', '.join(filter(None, (many, failed)))}")
     elif not count:
         lines.append(f"{source}: NOT PASSED: no fault, but not all could be measured; --lenient lets it pass")
     else:
-        lines.append(f"{source}: FAILED: {count} fault{'s' if count != 1 else ''}")
+        lines.append(f"{source}: FAILED: {many}")
     return lines
 
 
@@ -48,7 +54,8 @@ def verdict(facts: dict[str, Any]) -> str:
     """Return the verdict on a tile in one or two words."""
     if facts["passed"]:
         return "passed"
-    return "FAILED" if list(_faults(facts)) else "NOT PASSED"
+    failed = list(_faults(facts)) or not facts.get("audit", {"passed": True})["passed"]
+    return "FAILED" if failed else "NOT PASSED"
 
 
 def table(sources: Sequence[str], found: Sequence[dict[str, Any]]) -> list[str]:
@@ -142,6 +149,40 @@ def _at(fault: dict[str, Any]) -> str:
     x, y = fault["where_mm"]
     ink = f"{fault['ink']}: " if fault["ink"] else ""
     return f"at {x:.3f}, {y:.3f} mm: {ink}{fault['words']}"
+
+
+MOST_PLACES = 3
+"""Findings of one kind and ink that an audit tells in words."""
+
+
+def _audited(audit: dict[str, Any]) -> Iterator[str]:
+    """Yield the lines that tell what a machine would fail at, the worst first."""
+    measured = ", ".join(audit["measured"])
+    yield f"  held to {audit['machine']}: {measured or 'no limits'}"
+    for group in audit["groups"]:
+        of = [
+            each for each in audit["findings"] if (each["kind"], each["ink"]) == (group["kind"], group["ink"])
+        ]
+        ink = f" of ink {group['ink']}" if group["ink"] else ""
+        yield f"  {group['count']:,} {GROUPS[group['kind']]}{ink}"
+        for each in of[:MOST_PLACES]:
+            x, y = each["where_mm"]
+            yield f"    at {x:.2f}, {y:.2f} mm: {each['words']}"
+        if len(of) > MOST_PLACES:
+            yield f"    and {len(of) - MOST_PLACES:,} more: --json tells them all"
+
+
+GROUPS = {
+    "size": "sides larger than the machine",
+    "open": "open paths",
+    "double": "stretches drawn again",
+    "sliver": "slivers",
+    "line": "narrow lines",
+    "gap": "narrow gaps",
+    "hole": "small holes",
+    "nodes": "paths with crowded nodes",
+}
+"""What findings of an audit are called, by kind."""
 
 
 def _remarks(certificate: dict[str, Any]) -> list[str]:

@@ -41,6 +41,10 @@ class Limits:
         Annotated[float, Between(0.001, 1000)] | None, Says("most nodes to a mm of path, over 16 in a row")
     ] = None
     closed: Annotated[bool, Says("paths must be closed: a knife cuts open ones free of nothing")] = False
+    repeats: Annotated[
+        bool,
+        Says("it repeats the tile itself, as a screen does: the tile has to fit its size, not the cloth"),
+    ] = False
     twice: Annotated[Twice, Says("which paths drawn again are told of")] = Twice.NO
 
     def __post_init__(self) -> None:
