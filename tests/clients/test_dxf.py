@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from pathlib import Path
 
@@ -37,7 +38,8 @@ def test_librecad_draws_the_outlines_in_place_and_true_size(
     assert (right - left, high - low) == pytest.approx((drawing.cell.width, drawing.cell.height), abs=0.36)
     scale = per_mm(drawing)
     known = reference(outlines(drawing, 1 / scale), scale)
-    assert stray(load(programs.poppler(printed, scale)), known) < FEW
+    # That moves what is drawn by up to 0.36 mm, which is more than a pixel of small drawings.
+    assert stray(load(programs.poppler(printed, scale)), known, math.ceil(0.36 * scale)) < FEW
 
 
 @pytest.mark.clients
@@ -53,7 +55,7 @@ def test_a_mirrored_file_is_told(lopsided: Artwork, tmp_path: Path) -> None:
     printed = programs.librecad(written(replace(lopsided, layers=layers), tmp_path, DxfVersion.R2000))
     scale = per_mm(lopsided)
     known = reference(outlines(lopsided, 1 / scale), scale)
-    assert stray(load(programs.poppler(printed, scale)), known) > 0.1
+    assert stray(load(programs.poppler(printed, scale)), known, math.ceil(0.36 * scale)) > 0.1
 
 
 @pytest.mark.clients
