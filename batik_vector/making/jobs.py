@@ -12,24 +12,19 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
-import shapely
-
-from batik_vector.artwork import Artwork, Layer, Page
+from batik_vector.artwork import Artwork, Page
 from batik_vector.compiling.compiler import compile_cloth, compile_recipe
 from batik_vector.errors import ExportError, Fault, GeometryError, MissingLibraryError, RecipeError, SeamError
-from batik_vector.export import FORMATS, write_all_whole, write_page
-from batik_vector.machines.profile import Machine
-from batik_vector.recipe.drawing import Svg
+from batik_vector.export import FORMATS, write_all_whole
+from batik_vector.making.facts import facts_of, page_warnings, warnings
+from batik_vector.making.pages import drawings_of, piece_of, render_output, size_of
 from batik_vector.recipe.loading import load_recipe, located
 from batik_vector.recipe.model import OutputSpec, Recipe
-from batik_vector.recipe.outputs import OUTPUTS, Piece, PngOutput
+from batik_vector.recipe.outputs import OUTPUTS, Piece
 from batik_vector.recipe.reading.sources import is_compiled, stem_of
-from batik_vector.tiling.symmetry.machine_fit import pixel_advice
-from batik_vector.units import STEPS_PER_MM
 from batik_vector.values import frozen
 
 if TYPE_CHECKING:
-    from batik_vector.importing.drawing.marks import Drawing
     from batik_vector.tiling.cloth.yardage import Yardage
 
 
@@ -136,11 +131,6 @@ def _outputs(recipe: Recipe, formats: Sequence[str]) -> Iterator[OutputSpec]:
         yield from [each for each in recipe.output if each.format == name] or [OUTPUTS[name]()]
 
 
-def piece_of(recipe: Recipe, output: OutputSpec) -> Piece:
-    """Return what of a recipe's pattern an output shows."""
-    return output.piece or (Piece.YARDAGE if recipe.yardage is not None else Piece.TILE)
-
-
 def _unmet(job: Job, output: OutputSpec) -> Fault | None:
     """Return what is wrong with an output that asks for what the recipe does not have."""
     recipe, piece = job.recipe, piece_of(job.recipe, output)
@@ -203,13 +193,6 @@ def check_folder(folder: Path) -> None:
         raise ExportError(f"{there} may not be written to")
 
 
-def drawings_of(recipe: Recipe) -> Iterator[tuple[str, Drawing]]:
-    """Yield the drawings of a recipe's motifs, with the motifs' names."""
-    for name, motif in recipe.motif.items():
-        if isinstance(motif, Svg) and motif.drawing is not None:
-            yield name, motif.drawing
-
-
 def _check_place(path: Path, job: Job, drawings: Container[str]) -> None:
     if os.path.realpath(path) in drawings:
         raise ExportError(f"{path} would replace the drawing that it is made of: choose a folder with -o")
@@ -248,47 +231,6 @@ def made(job: Job, tell: Callable[[str], None]) -> Artwork:
         return compile_recipe(job.recipe, progress=tell)
 
 
-def render_output(page: Page, output: OutputSpec, sink: BinaryIO) -> Mapping[str, Any]:
-    """Write a file: a cloth, or the tile repeated or carried beyond its edges as the output asks.
-
-    What the compiler made is in the normal form, and is not asked again.
-
-    Returns:
-        What the processes that it went through have to report.
-    """
-    if isinstance(page, Artwork):
-        page = _set_out(page, getattr(output, "repeat", (1, 1)), getattr(output, "bleed", 0.0))
-    facts: dict[str, Any] = {}
-    for number, process in enumerate(output.process):
-        with _keyed(f"process[{number}]" if len(output.process) > 1 else "process"):
-            prepared = process.apply(page, output.machine_profile or Machine())
-        facts |= prepared.facts
-        page = prepared
-    write_page(page, sink, output.format, output.options, check=False)
-    return facts
-
-
-@contextmanager
-def _keyed(key: str) -> Iterator[None]:
-    """Give what a process finds wrong with one of its own keys as a fault of that key."""
-    try:
-        yield
-    except GeometryError as error:
-        from batik_vector.recipe.reading.faults import field_first
-
-        name, words = field_first(str(error))
-        raise RecipeError([Fault(words, f"{key}.{name}" if name else key)]) from error
-
-
-def _set_out(tile: Artwork, repeat: tuple[int, int], bleed: float) -> Page:
-    if repeat == (1, 1) and not bleed:
-        return tile
-    # Most files show the tile once, and do without all that fills a field with it.
-    from batik_vector.tiling.cloth.field import field_page
-
-    return field_page(tile, *repeat, bleed)
-
-
 def run(job: Job, tell: Callable[[str], None], look: Callable[[Page], None] | None = None) -> dict[str, Any]:
     """Compile a job and write its files, all of them or none; return the report.
 
@@ -311,11 +253,11 @@ def run(job: Job, tell: Callable[[str], None], look: Callable[[Page], None] | No
         page: Page | None = cloth if piece_of(recipe, output) == Piece.YARDAGE else tile
         if page is not None:
             writers.append((path, _writer(job, path, output, page, tell, reports)))
-            notes += _page_warnings(path, output, page)
+            notes += page_warnings(path, output, page)
     _write(writers)
     return {
         "recipe": job.source,
-        **_facts(tile, cloth),
+        **facts_of(tile, cloth),
         "files": reports,
         "seconds": round(time.perf_counter() - start, 3),
         "warnings": notes,
@@ -347,37 +289,13 @@ def _writer(
                 "path": str(path),
                 "format": output.format,
                 "bytes": sink.tell(),
-                "size_mm": _size(page, output),
+                "size_mm": size_of(page, output),
                 "seconds": round(time.perf_counter() - begun, 3),
                 **({"process": facts} if output.process else {}),
             }
         )
 
     return write
-
-
-def _facts(tile: Artwork | None, cloth: Yardage | None) -> dict[str, Any]:
-    """Return what a report says of a tile and of the cloth that it fills, either of which may be missing."""
-    facts: dict[str, Any] = {}
-    page: Page | None = tile or cloth
-    if page is not None:
-        facts = {
-            "title": page.title,
-            "cell_mm": [page.cell.width, page.cell.height],
-            "vertices": page.vertex_count,
-            "layers": [],
-        }
-    if tile is not None:
-        facts |= {"layers": [_layer(layer) for layer in tile.layers], **tile.facts}
-    if cloth is not None:
-        facts["yardage"] = {
-            "size_mm": [cloth.cell.width, cloth.cell.height],
-            "page_mm": _page_size(cloth),
-            "vertices_about": cloth.vertex_count,
-            "inks": [plate.ink.name for plate in cloth.plates if not plate.guide],
-            **cloth.facts,
-        }
-    return facts
 
 
 def _write(files: Sequence[tuple[Path, Callable[[BinaryIO], None]]]) -> None:
@@ -406,61 +324,3 @@ def make_folder(folder: Path) -> list[Path]:
     except OSError as error:
         raise ExportError(f"{error.filename} could not be made: {error.strerror}") from error
     return missing
-
-
-def _layer(layer: Layer) -> dict[str, Any]:
-    vertices = sum(int(shapely.get_num_coordinates(marks).sum()) for marks in (layer.areas, layer.lines))
-    return {
-        "ink": layer.ink.name,
-        "colour": layer.ink.colour,
-        "areas": len(layer.areas),
-        "lines": len(layer.lines),
-        "vertices": vertices,
-    }
-
-
-def _size(page: Page, output: OutputSpec) -> list[float]:
-    if not isinstance(page, Artwork):
-        return _page_size(page)
-    across, up = getattr(output, "repeat", (1, 1))
-    margin = 2 * getattr(output, "bleed", 0.0)
-    return [round(page.cell.width * across + margin, 3), round(page.cell.height * up + margin, 3)]
-
-
-def _page_size(page: Page) -> list[float]:
-    """Return the breadth and height of a page with its margins, in mm."""
-    margins = page.margins
-    columns = page.cell.columns + margins.left + margins.right
-    rows = page.cell.rows + margins.bottom + margins.top
-    return [columns / STEPS_PER_MM, rows / STEPS_PER_MM]
-
-
-def warnings(recipe: Recipe, artwork: Artwork) -> list[str]:
-    """Return what the recipe names and the artwork does not show, and tiles of broken pixels."""
-    used = {name for _, placement in recipe.placements() for name in placement.motifs}
-    drawn = {layer.ink.name for layer in artwork.layers}
-    found = [f'motif "{name}" is placed nowhere' for name in recipe.motif if name not in used]
-    found += [f'motif "{name}": {note}' for name, each in drawings_of(recipe) for note in each.notes]
-    if not recipe.border:
-        found += [f'ink "{name}" draws nothing' for name in recipe.ink if name not in drawn]
-    for number, output in enumerate(recipe.output):
-        # A picture of several repeats is a preview, and no tile to print from.
-        tile = piece_of(recipe, output) == Piece.TILE
-        if isinstance(output, PngOutput) and tile and output.repeat == (1, 1):
-            advice = pixel_advice(artwork.cell, output.dpi)
-            found += [f"output[{number}]: {advice}"] if advice else []
-    return found
-
-
-def _page_warnings(path: Path, output: OutputSpec, page: Page) -> list[str]:
-    """Return what readers of a file may take wrongly."""
-    if output.format != "pdf":
-        return []
-    from batik_vector.export.pdf import units_per_user_unit
-
-    if (unit := units_per_user_unit(page)) > 1:
-        return [
-            f"{path.name}: over 5.08 m long, and so in units of {unit} points (UserUnit): a program that "
-            f"passes this over shows it {unit} times too small"
-        ]
-    return []

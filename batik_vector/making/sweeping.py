@@ -21,7 +21,8 @@ from batik_vector.artwork import Artwork, Page
 from batik_vector.compiling.compiler import compile_recipe
 from batik_vector.errors import BatikError, ExportError, RecipeError
 from batik_vector.export.files import write_all_whole, write_whole
-from batik_vector.making.jobs import Job, check_folder, drawings_of, make_folder, planned, run
+from batik_vector.making.jobs import Job, check_folder, make_folder, planned, run
+from batik_vector.making.pages import drawings_of
 from batik_vector.making.pool import Outcome, outcomes
 from batik_vector.making.thumbnails import Thumbnail, thumbnail
 from batik_vector.making.variants import Variant, parse_axis, variants
@@ -49,8 +50,7 @@ class Making:
     Args:
         source: what the recipe is called in faults.
         text: the recipe, read once, so that all variants are of one state of it.
-        recipe_folder: where the drawings stand that it names.
-        folder: where files go.
+        recipe_folder, folder: where the drawings stand that it names, and where files go.
         overrides: set in all variants.
         formats: as for :func:`~batik_vector.making.jobs.planned`.
         pictures: whether a picture of each is wanted.

@@ -14,6 +14,9 @@ from batik_vector.processes.options import AnyProcess
 from batik_vector.values import frozen
 
 _FILE_WORD = r"[\w][\w .+-]{0,79}(?<![ .])\Z"
+Ways: TypeAlias = Annotated[
+    bool, Says("after a process, show the ways with the tool up, thin, in a layer that plotters skip")
+]
 Count: TypeAlias = Annotated[int, Between(1, 200)]
 
 
@@ -77,6 +80,7 @@ class SvgOutput(OutputSpec, SvgOptions):
 
     format = "svg"
     writer = SvgOptions
+    travel: Ways = False
     repeat: Annotated[tuple[Count, Count], Says("how many tiles across and up")] = (1, 1)
 
 
@@ -86,6 +90,7 @@ class PdfOutput(OutputSpec, PdfOptions):
 
     format = "pdf"
     writer = PdfOptions
+    travel: Ways = False
     bleed: Annotated[
         Annotated[Length, Between(0, 100)], Says("how far the pattern goes on beyond the trim")
     ] = 0.0
@@ -105,6 +110,7 @@ class PngOutput(OutputSpec, PngOptions):
 
     format = "png"
     writer = PngOptions
+    travel: Ways = False
     repeat: Annotated[tuple[Count, Count], Says("how many tiles across and up")] = (1, 1)
 
 
