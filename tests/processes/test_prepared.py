@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from ezdxf.entities import LWPolyline
+from ezdxf.entities.lwpolyline import LWPolyline
 from ezdxf.filemanagement import readfile
 
 from batik_vector.artwork import Ink, Margins, Page
@@ -50,7 +50,7 @@ def test_strokes_are_written_in_their_order_and_pens_have_their_numbers(tile: Pa
     assert re.findall(r'label="(\d+ \w+)"', svg) == ["2 wax", "3 ash"]
     (tmp_path / "a.dxf").write_bytes(render(page, "dxf", check=False))
     rings = list(readfile(tmp_path / "a.dxf").modelspace().query("LWPOLYLINE[layer=='wax']"))
-    found = [(ring.closed, ring[0][:2]) for ring in rings if isinstance(ring, LWPolyline)]
+    found = [(ring.closed, tuple(ring[0][:2])) for ring in rings if isinstance(ring, LWPolyline)]
     assert found == [(True, (-3.0, 3.0)), (True, (18.0, 3.0)), (False, (0.009, 0.009))]
 
 
