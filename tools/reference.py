@@ -29,6 +29,8 @@ from batik_vector.geometry.maps import VARIATIONS
 from batik_vector.geometry.regions import FillRule
 from batik_vector.library.features import FEATURES
 from batik_vector.machines import MACHINES, Limits, Machine, Motion, Tool, Twice
+from batik_vector.machines import Limits, Machine, Motion, Tool
+from batik_vector.processes.hatching.options import HATCHES
 from batik_vector.processes.options import PROCESSES
 from batik_vector.recipe.border import BorderSpec, Corner, Ends, Facing, RailSpec
 from batik_vector.recipe.drawing import Dressing, Svg
@@ -287,6 +289,7 @@ def page() -> str:
     lines += catalogue("Variations", "`kind` of the `variation` of a term", VARIATIONS)
     lines += catalogue("`[[output]]`", "`format`", OUTPUTS)
     lines += catalogue("`process` of an output", "`kind`", PROCESSES)
+    lines += catalogue("`hatch` of a process", "`kind`", HATCHES)
     lines += section("Machines' profiles", Machine, 2)
     profile: dict[str, type] = {"tool": Tool, "motion": Motion, "limits": Limits}
     for key, table_of in profile.items():

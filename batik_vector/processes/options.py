@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, TypeAlias
 
 from batik_vector.errors import GeometryError
 from batik_vector.fields import Between, Length, OneOf, Says, check
+from batik_vector.processes.hatching.options import AnyHatch
 from batik_vector.units import format_mm
 from batik_vector.values import frozen
 
@@ -120,6 +121,7 @@ class PlotProcess(ProcessSpec):
     margin: Annotated[
         Annotated[Length, Between(0, 100)], Says("how far what is hidden ends before the area that hides it")
     ] = 0.0
+    hatch: Annotated[AnyHatch | None, Says("how areas are filled; their outlines alone if unset")] = None
     edges: Annotated[bool, Says("draw outlines along the page's edges, where these cut marks off")] = False
     pens: Annotated[dict[str, Pen], Says("pens by inks; other inks have the next numbers that are free")] = (
         field(default_factory=dict)

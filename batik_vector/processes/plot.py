@@ -1,6 +1,6 @@
 """Plot: outlines and lines as strokes for pens, each drawn once, joined, and in a good order.
 
-What each ink draws is made of the outlines of its areas and of its lines: hidden parts go first, then what is
+What each ink draws is made of the outlines of its areas, or what fills them, and of its lines: hidden parts go first, then what is
 drawn already; what is left is joined to longest paths, and these are put in order with short ways between.
 Pens come in the order of their numbers.
 """
@@ -15,10 +15,11 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from batik_vector.artwork import Artwork, Overlap, Page, Plate
+from batik_vector.artwork import Artwork, Ink, Overlap, Page, Plate
 from batik_vector.errors import GeometryError, unknown_name
 from batik_vector.geometry.outlines import Outlines, nothing, together
 from batik_vector.machines import Machine, Motion
+from batik_vector.processes.hatching.filling import hatched
 from batik_vector.processes.options import Hidden, Once, PlotProcess
 from batik_vector.processes.order import contours, ordered
 from batik_vector.processes.ordering.distances import PARTS
@@ -45,7 +46,7 @@ def apply(page: Page, spec: PlotProcess, machine: Machine) -> Prepared:
     """
     layers = whole_page(page)
     tools = [
-        Tool(plate.ink, _outlined(page, areas, lines, spec.edges), pen, plate.guide)
+        Tool(plate.ink, _strokes(page, plate, areas, lines, spec, machine), pen, plate.guide)
         for (plate, areas, lines), pen in zip(layers, _pens(layers, spec.pens), strict=True)
     ]
     facts: dict[str, Any] = {}
@@ -71,10 +72,14 @@ def _pens(layers: Layers, chosen: Mapping[str, int]) -> list[int]:
     return [pen or (0 if plate.guide else next(free)) for plate, pen in zip(plates, told, strict=True)]
 
 
-def _outlined(page: Page, areas: Outlines, lines: Outlines, edges: bool) -> Outlines:
-    """Return the outlines of areas, and lines, one to a mark."""
+def _strokes(
+    page: Page, plate: Plate, areas: Outlines, lines: Outlines, spec: PlotProcess, machine: Machine
+) -> Outlines:
+    """Return the outlines of areas or what fills them, and lines, one to a mark."""
+    if spec.hatch and not plate.guide:
+        return together([hatched(areas, spec.hatch, _width(plate.ink, spec, machine)), *contours([lines])])
     outlines = together(list(contours([areas])))
-    if not edges:
+    if not spec.edges:
         cell, bleed = page.cell, round(page.bleed * STEPS_PER_MM)
         box = -bleed, -bleed, cell.columns + bleed, cell.rows + bleed
         repeats = isinstance(page, Artwork) and not bleed
@@ -128,9 +133,13 @@ def _some(strokes: Outlines, first: int, stop: int) -> Outlines:
 def _in_order(tool: Tool, spec: PlotProcess, machine: Machine) -> Tool:
     """Return a tool with its strokes joined, in order, and as broad as the pen draws them."""
     strokes = longest(tool.strokes) if spec.join and not tool.guide else tool.strokes
-    width = spec.width or machine.tool.width or tool.ink.width
-    ink = tool.ink if tool.guide else replace(tool.ink, width=width)
+    ink = tool.ink if tool.guide else replace(tool.ink, width=_width(tool.ink, spec, machine))
     return replace(tool, ink=ink, strokes=together(list(ordered([strokes]))))
+
+
+def _width(ink: Ink, spec: PlotProcess, machine: Machine) -> float:
+    """Return how broad a pen draws, in mm."""
+    return spec.width or machine.tool.width or ink.width
 
 
 def _costs(tools: Sequence[Tool], motion: Motion) -> dict[str, Any]:

@@ -1,0 +1,108 @@
+"""Areas filled: the strokes of a pen, mark by mark, the edge of each at last."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from batik_vector.geometry.outlines import MM, Index, Outlines, nothing, together
+from batik_vector.processes.hatching.crossings import Lines
+from batik_vector.processes.hatching.options import (
+    ConcentricHatch,
+    Hatch,
+    ParallelHatch,
+    SpiralHatch,
+)
+from batik_vector.processes.hatching.regions import Regions
+from batik_vector.processes.hatching.rings import as_strokes, concentric
+from batik_vector.processes.hatching.serpentines import serpentines
+from batik_vector.processes.hatching.spirals import spirals
+from batik_vector.processes.hatching.work import check_work, directions
+
+APART = 8
+"""Strokes end an eighth of the pen's width short of the edge's: joined along it they would draw it twice."""
+THINNER = (2, 4, 8)
+"""Parts of the inset that are tried, one after another, with areas too narrow for the whole."""
+
+Strokes = tuple[Outlines, Index]
+"""Strokes, and the mark that each lies in."""
+
+
+def hatched(areas: Outlines, spec: Hatch, pen: float) -> Outlines:
+    """Return the strokes that fill areas, mark by mark, in the order in which they are drawn.
+
+    Parallel strokes lie exactly a spacing apart. None leaves its area by more than a step; where the inset is
+    half the pen's width or more, no ink does, but of areas that are too narrow for it.
+
+    Args:
+        areas: closed rings, each mark filled by itself.
+        spec: how.
+        pen: the pen's width in mm, where the spec has none.
+
+    Raises:
+        ExportError: where the spacing asks for too many strokes.
+    """
+    areas = _sound(areas)
+    if not len(areas):
+        return nothing()
+    width = (spec.width or pen) * MM
+    inset = width / 2 if spec.inset is None else spec.inset * MM
+    spacing = width if spec.spacing is None else spec.spacing * MM
+    check_work(areas, spec, spacing, width)
+    whole = Regions.of(areas)
+    inner, _ = whole.drawn_in(inset)
+    drawn = _filled(inner, spec, spacing, width)
+    if spec.thin:
+        drawn.append(_thin(whole, inner, inset))
+    strokes = together([each for each, _ in drawn])
+    marks = np.concatenate([of for _, of in drawn])
+    return strokes.taken(np.argsort(marks, kind="stable"))
+
+
+def _sound(areas: Outlines) -> Outlines:
+    """Return areas without names; a ring of fewer than three points encloses nothing."""
+    rings = np.diff(areas.rings) > 2
+    if rings.all():
+        return areas.taken(np.arange(len(areas)))
+    outer = np.flatnonzero(rings[areas.marks[:-1]])
+    areas = areas.taken(outer)
+    rings = np.diff(areas.rings) > 2
+    kept = np.repeat(rings, np.diff(areas.rings))
+    counts = np.add.reduceat(rings, areas.marks[:-1], dtype=np.int64)
+    return Outlines(
+        areas.points[kept],
+        np.concatenate([[0], np.cumsum(np.diff(areas.rings)[rings])]),
+        np.concatenate([[0], np.cumsum(counts)]),
+        areas.closed[rings],
+    )
+
+
+def _filled(inner: Regions, spec: Hatch, spacing: float, width: float) -> list[Strokes]:
+    """Return the strokes of what the pen can reach, the edge's at last."""
+    if isinstance(spec, ConcentricHatch):
+        return [concentric(inner, spacing, edge_last=spec.edge)]
+    if isinstance(spec, SpiralHatch):
+        if not spec.edge:
+            return [spirals(inner, spacing)]
+        within, _ = inner.drawn_in(spacing)
+        return [spirals(within, spacing), as_strokes(inner)]
+    assert isinstance(spec, ParallelHatch)
+    within = inner.drawn_in(width / APART)[0] if spec.edge else inner
+    drawn = [
+        serpentines(within.outlines(), Lines(direction, spacing), join=spec.join)
+        for direction in directions(spec)
+    ]
+    drawn = [(strokes, within.marks[of]) for strokes, of in drawn]
+    return [*drawn, as_strokes(inner)] if spec.edge else drawn
+
+
+def _thin(whole: Regions, inner: Regions, inset: float) -> Strokes:
+    """Return the edges of areas that are too narrow for an inset, as far within as will do."""
+    left = whole.taken(np.setdiff1d(whole.marks, inner.marks))
+    drawn = list[Strokes]()
+    for part in THINNER:
+        if len(left):
+            found, _ = left.drawn_in(inset / part)
+            drawn.append(as_strokes(found))
+            left = left.taken(np.flatnonzero(~np.isin(left.marks, found.marks)))
+    drawn.append(as_strokes(left))
+    return together([each for each, _ in drawn]), np.concatenate([of for _, of in drawn])
