@@ -80,11 +80,8 @@ def test_joined_strokes_are_fewer_and_stay_inside(
 
 
 def _legs(points: NDArray[np.int64], rings: NDArray[np.int64]) -> list[tuple[tuple[int, int], tuple[int, int]]]:
-    found = []
-    for first, stop in itertools.pairwise(rings):
-        run = [(int(x), int(y)) for x, y in points[first:stop].tolist()]
-        found += list(itertools.pairwise(run))
-    return found
+    runs = (points[first:stop].tolist() for first, stop in itertools.pairwise(rings.tolist()))
+    return [((a, b), (c, d)) for run in runs for (a, b), (c, d) in itertools.pairwise(run)]
 
 
 @pytest.mark.parametrize("angle", [0, 17, 45, 90, 171.5])
