@@ -29,7 +29,6 @@ from batik_vector.geometry.maps import VARIATIONS
 from batik_vector.geometry.regions import FillRule
 from batik_vector.library.features import FEATURES
 from batik_vector.machines import MACHINES, Limits, Machine, Motion, Tool, Twice
-from batik_vector.machines import Limits, Machine, Motion, Tool
 from batik_vector.processes.hatching.options import HATCHES
 from batik_vector.processes.options import PROCESSES
 from batik_vector.recipe.border import BorderSpec, Corner, Ends, Facing, RailSpec

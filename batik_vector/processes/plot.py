@@ -1,8 +1,8 @@
 """Plot: outlines and lines as strokes for pens, each drawn once, joined, and in a good order.
 
-What each ink draws is made of the outlines of its areas, or what fills them, and of its lines: hidden parts go first, then what is
-drawn already; what is left is joined to longest paths, and these are put in order with short ways between.
-Pens come in the order of their numbers.
+What each ink draws is made of the outlines of its areas, or what fills them, and of its lines: hidden parts
+go first, then what is drawn already; what is left is joined to longest paths, and these are put in order with
+short ways between. Pens come in the order of their numbers.
 """
 
 from __future__ import annotations

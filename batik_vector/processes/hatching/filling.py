@@ -19,7 +19,8 @@ from batik_vector.processes.hatching.spirals import spirals
 from batik_vector.processes.hatching.work import check_work, directions
 
 APART = 8
-"""Strokes end an eighth of the pen's width short of the edge's: joined along it they would draw it twice."""
+"""Strokes end an eighth of the pen's width short of the edge, those of a second direction another eighth: what
+is joined along the edge would draw it twice."""
 THINNER = (2, 4, 8)
 """Parts of the inset that are tried, one after another, with areas too narrow for the whole."""
 
@@ -36,7 +37,7 @@ def hatched(areas: Outlines, spec: Hatch, pen: float) -> Outlines:
     Args:
         areas: closed rings, each mark filled by itself.
         spec: how.
-        pen: the pen's width in mm, where the spec has none.
+        pen: the pen's width in mm.
 
     Raises:
         ExportError: where the spacing asks for too many strokes.
@@ -44,7 +45,7 @@ def hatched(areas: Outlines, spec: Hatch, pen: float) -> Outlines:
     areas = _sound(areas)
     if not len(areas):
         return nothing()
-    width = (spec.width or pen) * MM
+    width = pen * MM
     inset = width / 2 if spec.inset is None else spec.inset * MM
     spacing = width if spec.spacing is None else spec.spacing * MM
     check_work(areas, spec, spacing, width)
@@ -86,12 +87,11 @@ def _filled(inner: Regions, spec: Hatch, spacing: float, width: float) -> list[S
         within, _ = inner.drawn_in(spacing)
         return [spirals(within, spacing), as_strokes(inner)]
     assert isinstance(spec, ParallelHatch)
-    within = inner.drawn_in(width / APART)[0] if spec.edge else inner
-    drawn = [
-        serpentines(within.outlines(), Lines(direction, spacing), join=spec.join)
-        for direction in directions(spec)
-    ]
-    drawn = [(strokes, within.marks[of]) for strokes, of in drawn]
+    drawn = list[Strokes]()
+    for number, direction in enumerate(directions(spec), start=int(spec.edge)):
+        within, _ = inner.drawn_in(width / APART * number)
+        strokes, of = serpentines(within.outlines(), Lines(direction, spacing), join=spec.join)
+        drawn.append((strokes, within.marks[of]))
     return [*drawn, as_strokes(inner)] if spec.edge else drawn
 
 

@@ -20,9 +20,6 @@ class Hatch:
         Annotated[Length, Between(LEAST_MM, MOST_MM)] | None,
         Says("from stroke to stroke; the pen's width if unset"),
     ] = None
-    width: Annotated[
-        Annotated[Length, Between(LEAST_MM, MOST_MM)] | None, Says("of the pen; the ink's if unset")
-    ] = None
     inset: Annotated[
         Annotated[Length, Between(0, MOST_MM)] | None,
         Says(

@@ -33,8 +33,9 @@ def check_work(areas: Outlines, spec: Hatch, spacing: float, width: float) -> No
         ExportError: where strokes would lie ``OVERLAID`` times over one another, or be more than
             ``MOST_STROKES``; with the spacing that would do.
     """
-    key = "hatch.width" if spec.spacing is None and spec.width is not None else "hatch.spacing"
-    said = f"{key} = {format_mm(spacing / MM)} mm"
+    said = f"hatch.spacing = {format_mm(spacing / MM)} mm"
+    if spec.spacing is None:
+        said += ", the pen's width"
     if spacing * OVERLAID < width * (1 - 1e-9):
         raise ExportError(
             f"{said}, expected a twentieth of the pen's width of {format_mm(width / MM)} mm or more: "

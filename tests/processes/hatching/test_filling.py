@@ -159,37 +159,34 @@ def test_nothing_is_filled_with_nothing(kind: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("spec", "count", "words"),
+    ("spec", "pen", "count", "words"),
     [
-        (
-            ParallelHatch(spacing=0.001),
-            1,
-            "hatch.spacing = 0.001 mm, expected a twentieth of the pen's",
-        ),
-        (ConcentricHatch(spacing=0.02), 1, "of 0.5 mm or more: 0.025 mm would do"),
-        (
-            ParallelHatch(width=0.001, angle=0),
-            10,
-            "hatch.width = 0.001 mm: about 4,000,000 strokes, ",
-        ),
-        (ParallelHatch(width=0.005, angle=0), 50, "at most 2,000,000: 0.01 mm would do"),
-        (
-            CrossHatch(width=0.001, angle=0),
-            10,
-            "about 7,000,000 strokes, expected at most 2,000,000: 0.004",
-        ),
-        (SpiralHatch(width=0.001), 1000, "hatch.width = 0.001 mm: about 6,000,000 "),
+        (ParallelHatch(spacing=0.001), 0.5, 1, "hatch.spacing = 0.001 mm, expected a twentieth of the pen's"),
+        (ConcentricHatch(spacing=0.02), 0.5, 1, " width of 0.5 mm or more: 0.025 mm would do"),
+        (ParallelHatch(angle=0), 0.001, 10, "hatch.spacing = 0.001 mm, the pen's width: about 4,000,000 str"),
+        (ParallelHatch(angle=0, spacing=0.005), 0.05, 50, "at most 2,000,000: 0.01 mm would do"),
+        (CrossHatch(angle=0), 0.001, 10, "about 7,000,000 strokes, expected at most 2,000,000: 0.004 mm"),
+        (SpiralHatch(spacing=0.001), 0.01, 1000, "hatch.spacing = 0.001 mm: about 6,000,000 strokes"),
     ],
 )
-def test_a_hairs_spacing_is_refused_with_what_would_do(spec: Hatch, count: int, words: str) -> None:
+def test_a_hairs_spacing_is_refused_with_what_would_do(
+    spec: Hatch, pen: float, count: int, words: str
+) -> None:
     boxes = outlines(*(shapely.box(0, 500 * k, 300, 500 * k + 400) for k in range(count)))
     with pytest.raises(ExportError) as caught:
-        hatched(boxes, spec, 0.5)
+        hatched(boxes, spec, pen)
     assert words in str(caught.value)
 
 
-@pytest.mark.parametrize("key", ["spacing", "width"])
-@pytest.mark.parametrize("value", [0.0, -1.0, float("nan")])
+@pytest.mark.parametrize("key", ["spacing", "inset"])
+@pytest.mark.parametrize("value", [-0.001, -1.0, float("nan")])
 def test_widths_of_nothing_are_refused(key: str, value: float) -> None:
     with pytest.raises((RecipeError, ValueError), match=key):
         ParallelHatch(**{key: value})  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("kind", list(HATCHES))
+@pytest.mark.parametrize("shape", [NECK, RING])
+def test_nothing_is_drawn_twice(kind: str, shape: shapely.Polygon) -> None:
+    strokes = lines(hatched(outlines(shape), HATCHES[kind](), 0.7))
+    assert shapely.length(shapely.union_all(strokes)) == pytest.approx(shapely.length(strokes).sum(), abs=1)

@@ -18,6 +18,7 @@ from tests.thorough import examples, long
 
 from .shapes import areas, lines, outlines
 
+Place = tuple[int, int]
 ANGLES = st.one_of(st.sampled_from([0.0, 30.0, 45.0, 90.0, -90.0, 180.0]), st.floats(-360, 360))
 SPACINGS = st.one_of(st.sampled_from([500.0, 333.4]), st.floats(200, 3000))
 
@@ -79,7 +80,9 @@ def test_joined_strokes_are_fewer_and_stay_inside(
     assert {tuple(sorted(pair)) for pair in _legs(single.points, single.rings)} <= pairs
 
 
-def _legs(points: NDArray[np.int64], rings: NDArray[np.int64]) -> list[tuple[tuple[int, int], tuple[int, int]]]:
+def _legs(
+    points: NDArray[np.int64], rings: NDArray[np.int64]
+) -> list[tuple[tuple[int, int], tuple[int, int]]]:
     runs = (points[first:stop].tolist() for first, stop in itertools.pairwise(rings.tolist()))
     return [((a, b), (c, d)) for run in runs for (a, b), (c, d) in itertools.pairwise(run)]
 
