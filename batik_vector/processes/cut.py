@@ -1,19 +1,59 @@
-"""Cut: closed contours for a knife or a laser."""
+"""Cut: closed contours for a knife or a laser, the inner before the outer, and where the kerf asks for them.
+
+Regions are taken as they show. Their borders, moved by half the kerf, and the edges that inks share are the
+strokes; they are put in order, begun where told, parted by tabs and led as a drag knife has to be led.
+"""
 
 from __future__ import annotations
 
-from batik_vector.artwork import Page
-from batik_vector.geometry.outlines import together
+from typing import Any
+
+from batik_vector.artwork import Artwork, Cell, Ink, Page
 from batik_vector.machines import Machine
+from batik_vector.processes.cutting.registration import crosses
+from batik_vector.processes.cutting.stock import HAIRLINE, nested, stocks_of
+from batik_vector.processes.cutting.strokes import cut_out
+from batik_vector.processes.cutting.told import Told, told
+from batik_vector.processes.cutting.weeding import Box
 from batik_vector.processes.options import CutProcess
-from batik_vector.processes.order import contours, ordered
-from batik_vector.processes.prepared import Prepared, Tool, whole_page
+from batik_vector.processes.prepared import Prepared, Tool
+
+REGISTRATION = "registration"
+BLACK = "#000000"
 
 
 def apply(page: Page, spec: CutProcess, machine: Machine) -> Prepared:
-    """Return the outlines of each ink's areas, the inner before the outer."""
-    tools = [
-        Tool(plate.ink, together(list(ordered(contours([areas])))), plate.pen, plate.guide)
-        for plate, areas, _ in whole_page(page)
-    ]
-    return Prepared(page, tuple(tools), (*page.provenance.processes, str(spec)))
+    """Return what a knife or a laser follows to cut a page's areas out, one layer for each sheet.
+
+    Raises:
+        GeometryError: where the tool cannot cut what is drawn, with the key and the value that would do.
+        ExportError: where the page is too large.
+    """
+    asked = told(spec, machine, page.tolerance)
+    tools, facts = list[Tool](), list[dict[str, Any]]()
+    for stock in stocks_of(page, asked):
+        laid, sheet = nested(stock, asked)
+        strokes, found = cut_out(laid, asked)
+        tools.append(Tool(stock.ink, strokes))
+        facts.append({"tool": stock.ink.name, **found, **sheet})
+    sheeted = _sheeted(page, asked)
+    if asked.registration is not None:
+        tools.append(_registration(sheeted.cell, asked))
+    settings = {"kerf_mm": asked.kerf / 1000, "blade_offset_mm": asked.blade_offset / 1000}
+    done = (*page.provenance.processes, str(spec))
+    return Prepared(sheeted, tuple(tools), done, {"cut": {**settings, "tools": facts}})
+
+
+def _sheeted(page: Page, asked: Told) -> Page:
+    """Return the page, or one of the sheet's size that draws nothing of its own."""
+    if asked.sheet is None:
+        return page
+    cell = Cell(*asked.sheet)
+    return Artwork(page.title, cell, (), page.cloth, page.tolerance, provenance=page.provenance)
+
+
+def _registration(cell: Cell, asked: Told) -> Tool:
+    """Return crosses beside the page's corners, or within those of a sheet."""
+    size = asked.registration or 0
+    box = Box(0, 0, cell.columns, cell.rows).grown(-size if asked.sheet else size)
+    return Tool(Ink(REGISTRATION, BLACK, HAIRLINE), crosses(box, size))

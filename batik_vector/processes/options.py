@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, TypeAlias
 
 from batik_vector.errors import GeometryError
 from batik_vector.fields import Between, Length, OneOf, Says, check
+from batik_vector.processes.cutting.choices import Inks, Keep, Lines, Narrow, Start, Turns
 from batik_vector.processes.hatching.options import AnyHatch
 from batik_vector.units import format_mm
 from batik_vector.values import frozen
@@ -143,6 +144,72 @@ class CutProcess(ProcessSpec):
 
     kind = "cut"
     module = "batik_vector.processes.cut"
+    keeps_tile = False
+
+    inks: Annotated[Inks, Says("out of one sheet all inks (together), or each out of its own (apart)")] = (
+        Inks.TOGETHER
+    )
+    lines: Annotated[Lines, Says("lines are cut round as areas (body), left out (skip) or refused")] = (
+        Lines.BODY
+    )
+    keep: Annotated[
+        Keep, Says("what keeps its measure: what is drawn (ink), or what is around it (ground)")
+    ] = Keep.INK
+    kerf: Annotated[
+        Annotated[Length, Between(0, 20)] | None,
+        Says("breadth of what the cut takes away; the machine's if unset, or 0"),
+    ] = None
+    narrow: Annotated[
+        Narrow, Says("places narrower than the kerf are refused, or accepted as they come out")
+    ] = Narrow.REFUSE
+    blade_offset: Annotated[
+        Annotated[Length, Between(0, 10)] | None,
+        Says("how far a drag knife's tip trails behind its axis; the machine's if unset, or 0"),
+    ] = None
+    corner: Annotated[float, Between(1, 180), Says("degrees of turn from which a bend is a corner")] = 20.0
+    swivel: Annotated[
+        float, Between(-360, 360), Says("degrees, the direction in which a drag knife is turned first")
+    ] = 0.0
+    precut: Annotated[
+        Annotated[Length, Between(0, 100)] | None,
+        Says("length of the cut beside the drawing that turns it so; 2 mm for a drag knife, or none"),
+    ] = None
+    overcut: Annotated[
+        Annotated[Length, Between(0, 100)] | None,
+        Says("how far a contour is cut on past its start; 1 mm for a drag knife, or none"),
+    ] = None
+    start: Annotated[
+        Start | None,
+        Says("where contours begin: on a corner, in a straight side (a drag knife), or nearest (all else)"),
+    ] = None
+    tabs: Annotated[int, Between(0, 100), Says("gaps that hold each part by its outer contour")] = 0
+    tab_length: Annotated[Annotated[Length, Between(0.01, 100)], Says("breadth of a tab")] = 0.5
+    tab_spacing: Annotated[
+        Annotated[Length, Between(1, 100_000)] | None, Says("a tab for each so many mm, where that is more")
+    ] = None
+    weed_box: Annotated[
+        Annotated[Length, Between(0, 1000)] | None, Says("cut a box so far around all; none if unset")
+    ] = None
+    weed_lines: Annotated[
+        Annotated[Length, Between(1, 10_000)] | None,
+        Says("cut what is around into strips so high at most; none if unset"),
+    ] = None
+    weed_margin: Annotated[Annotated[Length, Between(0, 100)], Says("how clear of the drawing they keep")] = (
+        1.0
+    )
+    registration: Annotated[
+        Annotated[Length, Between(1, 100)] | None,
+        Says("size of crosses at the page's corners, in a layer of their own; none if unset"),
+    ] = None
+    sheet: Annotated[
+        tuple[Annotated[Length, Between(1, 100_000)], Annotated[Length, Between(1, 100_000)]] | None,
+        Says("nest the pieces on a sheet of this breadth and height; they stay where they are if unset"),
+    ] = None
+    gap: Annotated[Annotated[Length, Between(0, 1000)], Says("how far nested pieces keep apart")] = 3.0
+    turns: Annotated[Turns, Says("how nested pieces may be turned")] = Turns.QUARTER
+    sheet_number: Annotated[
+        Annotated[int, Between(1, 1000)] | None, Says("which sheet the file holds, where there are several")
+    ] = None
 
 
 PROCESSES: dict[str, type[ProcessSpec]] = {each.kind: each for each in (PlotProcess, CutProcess)}
