@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
 import shapely
 
-from batik_vector.artwork import Artwork, Cell, DropAxis, Geometries, Layer
+from batik_vector.artwork import Artwork, Cell, DropAxis, Geometries, Layer, Margins, Page
 from batik_vector.export.ids import Ids
 from batik_vector.export.palette import xml_label
+from batik_vector.geometry.outlines import to_polylines, together
 from batik_vector.importing.svg import Reading
+from batik_vector.machines import Machine
+from batik_vector.processes.options import ProcessSpec
 from batik_vector.recipe.model import Recipe
 from batik_vector.tiling.cloth.field import repeated, with_bleed
-from batik_vector.units import format_mm
+from batik_vector.units import STEPS_PER_MM, format_mm
 from batik_vector.values import frozen
 
 SIZE_MM = 1e-3
@@ -68,12 +72,66 @@ def promised(recipe: Recipe, tile: Artwork, reading: Reading) -> Promise:
         tile: what it compiles to.
         reading: the file.
     """
-    repeats = {getattr(each, "repeat", (1, 1)) for each in recipe.output if each.format == "svg"}
-    for across, up in sorted({(1, 1)} | repeats):
+    for across, up in _repeats(recipe):
         page = (tile.cell.width * across, tile.cell.height * up)
         if np.allclose(page, reading.page, rtol=0, atol=SIZE_MM):
-            field = tile if (across, up) == (1, 1) else _with_borders(repeated(tile, across, up), tile)
+            field = _field(tile, across, up)
             return Promise(recipe, field, _repeat(field.cell))
+    return _broken(recipe, tile, reading)
+
+
+def promised_prepared(
+    recipe: Recipe, tile: Artwork, reading: Reading, processes: Sequence[ProcessSpec]
+) -> tuple[Promise, bool]:
+    """Return what a recipe promises of a page that went through processes, and whether it is a tile still.
+
+    Args:
+        recipe, tile, reading: as for :func:`promised`.
+        processes: what the file says that it went through.
+
+    Raises:
+        GeometryError: where a process cannot be done.
+    """
+    for across, up in _repeats(recipe):
+        field = _field(tile, across, up)
+        page: Page = field
+        for process in processes:
+            page = process.apply(page, Machine())
+        shown = _strokes(page)
+        if np.allclose((shown.cell.width, shown.cell.height), reading.page, rtol=0, atol=SIZE_MM):
+            kept = page.margins == Margins() and all(each.keeps_tile for each in processes)
+            if kept:
+                shown = replace(shown, cell=field.cell, borders=field.borders)
+            return Promise(recipe, shown, _repeat(shown.cell)), kept
+    return _broken(recipe, tile, reading), False
+
+
+def _strokes(page: Page) -> Artwork:
+    """Return what a page draws with its corner at the origin: its strokes, by tools."""
+    margins = page.margins
+    columns = margins.left + page.cell.columns + margins.right
+    rows = margins.bottom + page.cell.rows + margins.top
+    layers = []
+    for number, plate in enumerate(page.plates):
+        if plate.lines and not plate.guide:
+            strokes = together([each.moved(margins.left, margins.bottom) for each in page.lines(number)])
+            layers.append(Layer(plate.ink, lines=to_polylines(strokes, STEPS_PER_MM)))
+    return Artwork(page.title, Cell(columns, rows), tuple(layers), page.cloth, page.tolerance)
+
+
+def _repeats(recipe: Recipe) -> list[tuple[int, int]]:
+    """Return how many tiles the SVGs of a recipe may show."""
+    return sorted(
+        {(1, 1)} | {getattr(each, "repeat", (1, 1)) for each in recipe.output if each.format == "svg"}
+    )
+
+
+def _field(tile: Artwork, across: int, up: int) -> Artwork:
+    return tile if (across, up) == (1, 1) else _with_borders(repeated(tile, across, up), tile)
+
+
+def _broken(recipe: Recipe, tile: Artwork, reading: Reading) -> Promise:
+    """Return the promise that a page of another size breaks."""
     sizes = (" × ".join(map(format_mm, size)) for size in (reading.page, (tile.cell.width, tile.cell.height)))
     broken = "the page is {} mm, and the recipe in it promises {} mm".format(*sizes)
     # The drop of a page of another size need not land on the grid.

@@ -17,7 +17,7 @@ from batik_vector.artwork import Artwork
 from batik_vector.audit import Audit, audit
 from batik_vector.certificate import Asked, Certificate, Kind, Limits, certify, pointers
 from batik_vector.certificate.pointers import COLOUR, NAME, pointer_lines
-from batik_vector.command.carried_recipes import Promise, bled, differences, promised
+from batik_vector.command.carried_recipes import Promise, bled, differences, promised, promised_prepared
 from batik_vector.command.drawing_files import is_drawing
 from batik_vector.compiling.compiler import compile_recipe, inspect
 from batik_vector.errors import BatikError, ExportError, Fault, GeometryError, RecipeError
@@ -33,6 +33,7 @@ from batik_vector.making.jobs import Job, made, read_jobs
 from batik_vector.making.promised import asked_group
 from batik_vector.recipe.loading import read_recipe
 from batik_vector.recipe.model import Recipe
+from batik_vector.recipe.reading.called_processes import read_processes
 from batik_vector.recipe.reading.sources import is_compiled, stem_of
 from batik_vector.tiling.symmetry.groups import group
 from batik_vector.tiling.symmetry.machine_fit import per_cent
@@ -163,6 +164,9 @@ def _check_drawing(source: str, wishes: Wishes, tell: Tell) -> Found:
     notes += _left_aside(wishes)
     if recipe.tile is None:
         raise _fault(source, "shows borders alone, and no tile that could be certified")
+    processes = read_provenance(source).processes
+    if processes:
+        return _check_prepared(source, reading, recipe, processes, wishes, tell)
     try:
         promise = promised(recipe, compile_recipe(recipe, progress=tell), reading)
     except BatikError as error:
@@ -173,10 +177,22 @@ def _check_drawing(source: str, wishes: Wishes, tell: Tell) -> Found:
     if promise.broken and recipe.yardage is not None:
         raise _fault(source, "shows the cloth, and not the tile that fills it: check its recipe instead")
     certificate = _certified(source, reading.artwork, wishes, asked_group(recipe))
-    processes = read_provenance(source).processes
-    if processes:
-        notes.append(f"went through {', then '.join(processes)}: it is not compared with its recipe")
-    return _drawing_found(source, reading, certificate, promise, notes, compared=not processes)
+    return _drawing_found(source, reading, certificate, promise, notes)
+
+
+def _check_prepared(
+    source: str, reading: Reading, recipe: Recipe, processes: Sequence[str], wishes: Wishes, tell: Tell
+) -> Found:
+    """Measure a drawing that went through processes, and compare it with its recipe gone through the same."""
+    tile = compile_recipe(recipe, progress=tell)
+    tell("measuring")
+    promise, kept = promised_prepared(recipe, tile, reading, read_processes(processes))
+    reading, promise = _as_promised(source, reading, promise)
+    certificate = _certified(source, reading.artwork if kept else tile, wishes, asked_group(recipe))
+    notes = [*reading.notes, *_left_aside(wishes), f"went through {', then '.join(processes)}"]
+    if not kept:
+        notes[-1] += ": the tile that it was made of was measured"
+    return _drawing_found(source, reading, certificate, promise, notes)
 
 
 def _as_promised(source: str, reading: Reading, promise: Promise) -> tuple[Reading, Promise]:
@@ -242,15 +258,13 @@ def _drawing_found(
     certificate: Certificate,
     promise: Promise | None = None,
     notes: Sequence[str] = (),
-    *,
-    compared: bool = True,
 ) -> Found:
     artwork = reading.artwork
     broken = list(promise.broken) if promise else []
-    apart = differences(artwork, promise.artwork) if promise and compared and not broken else []
+    apart = differences(artwork, promise.artwork) if promise and not broken else []
     facts = inspect(artwork)
     for told, layer in zip(facts["layers"], artwork.layers, strict=True):
-        told["covers"] = round(certificate.covers[layer.ink.name], 6)
+        told["covers"] = round(certificate.covers.get(layer.ink.name, 0.0), 6)
     facts["page_mm"] = [round(side, 6) for side in reading.page]
     # The normal form and equal bits on the seam are for what this program compiles.
     facts["violations"], facts["seam"] = [], []

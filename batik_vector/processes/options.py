@@ -8,9 +8,12 @@ from __future__ import annotations
 
 import dataclasses
 import enum
+import json
+import re
+import shlex
 from dataclasses import field
 from importlib import import_module
-from typing import TYPE_CHECKING, Annotated, ClassVar, TypeAlias
+from typing import TYPE_CHECKING, Annotated, ClassVar, Self, TypeAlias
 
 from batik_vector.errors import GeometryError
 from batik_vector.fields import Between, Length, OneOf, Says, check
@@ -44,12 +47,19 @@ class ProcessSpec:
         Raises:
             ExportError: with the key at fault and the value that would do.
         """
-        done: Prepared = import_module(self.module).apply(page, self, machine)
+        done: Prepared = import_module(self.module).apply(page, self.resolved(machine), machine)
         return done
+
+    def resolved(self, machine: Machine) -> Self:
+        """Return the process with what it leaves unset as the machine's tool has it."""
+        tool = machine.tool
+        unset = [each.name for each in dataclasses.fields(self) if getattr(self, each.name) is None]
+        known = {name: getattr(tool, name) for name in unset if getattr(tool, name, None) is not None}
+        return dataclasses.replace(self, **known) if known else self
 
     def __str__(self) -> str:
         """Return the process as ``--process`` takes it, without what stands at its default."""
-        said = [f"{name}={value}" for name, value in _chosen(self)]
+        said = [shlex.quote(f"{name}={value}") for name, value in _chosen(self)]
         return " ".join([self.kind, *said])
 
 
@@ -79,8 +89,13 @@ def _spelled(value: object) -> str:
     if isinstance(value, tuple):
         return "[" + ",".join(map(_spelled, value)) + "]"
     if isinstance(value, dict):
-        return "{" + ",".join(f"{key}={_spelled(each)}" for key, each in value.items()) + "}"
+        return "{" + ",".join(f"{_key(name)}={_spelled(each)}" for name, each in value.items()) + "}"
     return str(value)
+
+
+def _key(name: str) -> str:
+    """Return a key as TOML writes it."""
+    return name if re.fullmatch(r"[A-Za-z0-9_-]+", name) else json.dumps(name, ensure_ascii=False)
 
 
 class Once(enum.StrEnum):

@@ -58,5 +58,24 @@ def test_a_plot_tells_what_it_takes_and_what_it_left_out(tmp_path: Path) -> None
     assert "pen 4, blue: nothing is left to draw" in done.stderr
     assert "change of pen" not in done.stderr
     checked = CliRunner().invoke(cli, ["check", str(tmp_path / "twice.svg")])
-    assert "went through plot once=all pens={blue=4}: it is not compared with its recipe" in checked.output
+    assert "went through plot once=all 'pens={blue=4}'" in checked.output
     assert "differs" not in checked.output
+
+
+def test_a_plot_is_compared_with_its_recipe_gone_through_the_same(tmp_path: Path) -> None:
+    recipe = tmp_path / "twice.toml"
+    recipe.write_text(RECIPE, encoding="utf-8")
+    CliRunner().invoke(
+        cli, ["compile", str(recipe), "-o", str(tmp_path), "--machine", "pen-plotter", "--process", "plot"]
+    )
+    plotted = tmp_path / "twice.svg"
+    assert "differ" not in CliRunner().invoke(cli, ["check", str(plotted)]).output.replace("mm² differ", "")
+    drawn = plotted.read_text()
+    first = drawn.index(' d="M') + 5
+    end = drawn.index('"', first)
+    # One stroke is moved a little to the right.
+    plotted.write_text(drawn[:first] + "1 1L9 9" + drawn[end:])
+    assert (
+        "the lines of the file and of the recipe differ"
+        in CliRunner().invoke(cli, ["check", str(plotted)]).output
+    )
