@@ -19,6 +19,7 @@ from batik_vector.processes.ordering.chaining import chained
 from batik_vector.processes.ordering.distances import PARTS, distances
 from batik_vector.processes.ordering.improving import improved
 from batik_vector.processes.ordering.nesting import inside_first, parents
+from batik_vector.processes.ordering.sites import Sites
 from batik_vector.processes.ordering.starts import ends_of, settled
 from batik_vector.units import STEPS_PER_MM
 
@@ -26,7 +27,8 @@ BATCH = 1 << 20
 """Vertices that are brought into order together, about; a page with more is ordered batch by batch."""
 GOINGS = 2
 """How often the order is improved and the starts of closed strokes are settled by it, in turn."""
-
+NEAREST = 6
+"""Neighbours of an end that it may follow."""
 TRIED = 24
 """Vertices of a closed stroke that are tried as its start; when the order stands, all are."""
 
@@ -104,20 +106,21 @@ def in_order(strokes: Outlines) -> Outlines:
         return strokes
     parent = parents(strokes)
     start = strokes.rings[:-1].copy()
-    ends = ends_of(strokes, start)
     # What lies in the same stroke, or in none, has an order of its own.
     used = np.zeros(len(parent) + 1, bool)
     used[parent + 1] = True
     groups = (np.cumsum(used) - 1)[parent + 1].astype(np.intp)
-    among = chained(ends, groups)
+    among: Index | None = None
     for going in range(GOINGS):
-        among = improved(among, ends, groups)
+        ends = ends_of(strokes, start)
+        sites = Sites.of(ends, groups)
+        pairs = sites.near(NEAREST)
+        among = improved(chained(sites, pairs) if among is None else among, sites, pairs)
         among = _from_the_corner(among, ends, int(np.count_nonzero(groups == 0)))
         passed = _nested(among, parent)
         if not strokes.closed.any():
             break
         start = settled(strokes, passed, start, TRIED if going < GOINGS - 1 else None)
-        ends = ends_of(strokes, start)
     return _drawn(strokes, passed, start)
 
 

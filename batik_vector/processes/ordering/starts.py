@@ -45,8 +45,8 @@ def settled(strokes: Outlines, passed: Index, start: Index, tried: int | None = 
         members, offsets = _members(strokes.rings, which, tried)
         sizes = np.diff(offsets)
         # Column by column: NumPy's loop over the two numbers of each point is many times dearer.
-        x, y = (column[members] for column in columns)
-        way: Distances = np.zeros(len(members), np.int64)
+        x, y = (column[members].astype(float) for column in columns)
+        way: Distances = np.zeros(len(members))
         for other in (at[before], at[behind]):
             way += lengths(x - np.repeat(other[:, 0], sizes), y - np.repeat(other[:, 1], sizes))
         least = np.minimum.reduceat(way, offsets[:-1])
