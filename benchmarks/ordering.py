@@ -26,7 +26,7 @@ def outlines(count: int) -> Outlines:
 
 def main(count: int, way: bool) -> None:
     """Order strokes, and tell what it took or what it gave."""
-    in_order(outlines(20))
+    in_order(outlines(200))
     part, found = timed(partial(in_order, outlines(count)))
     if way:
         print(json.dumps({"ratio": travel(found) / spanning_tree(strokes(count))}))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 SIDE_MM = 1000.0
@@ -19,17 +20,29 @@ def strokes(count: int) -> NDArray[np.float64]:
 
 
 def spanning_tree(lines: NDArray[np.float64]) -> float:
-    """Return the length of the shortest tree that joins strokes at their ends (Prim), in their unit.
+    """Return the length of the shortest tree that joins strokes at their ends, in their unit.
 
-    No way through all of them can have shorter ways between them.
+    No way through all of them can have shorter ways between them. Its edges are among those of the Delaunay
+    triangles of all ends: whatever else would join two strokes is the longest of a ring of ways.
     """
-    best, total = np.full(len(lines), np.inf), 0.0
-    left = np.ones(len(lines), bool)
-    at = 0
-    for _ in range(len(lines) - 1):
-        left[at] = False
-        apart = lines[:, :, None] - lines[at][None, None]
-        best = np.minimum(best, np.sqrt((apart**2).sum(axis=-1)).min(axis=(1, 2)))
-        at = int(np.where(left, best, np.inf).argmin())
-        total += float(best[at])
+    ends, at = np.unique(lines.reshape(-1, 2), axis=0, return_inverse=True)
+    edges = shapely.delaunay_triangles(shapely.multipoints(ends), only_edges=True)
+    places = shapely.get_coordinates(shapely.get_parts(edges)).reshape(-1, 2, 2)
+    apart = np.hypot(*(places[:, 0] - places[:, 1]).T)
+    number = {place: which for which, place in enumerate(map(tuple, ends.tolist()))}
+    above = list(range(len(ends)))
+
+    def top(which: int) -> int:
+        while above[which] != which:
+            above[which] = which = above[above[which]]
+        return which
+
+    for one, two in at.reshape(-1, 2).tolist():
+        above[top(one)] = top(two)
+    total = 0.0
+    for edge in np.argsort(apart, kind="stable").tolist():
+        one, two = (top(number[tuple(place)]) for place in places[edge].tolist())
+        if one != two:
+            above[one] = two
+            total += float(apart[edge])
     return total

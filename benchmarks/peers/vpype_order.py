@@ -28,7 +28,7 @@ def main() -> None:
     """Sort, and tell what it took or what it gave."""
     passes, count = int(sys.argv[1]), int(sys.argv[2])
     command = f"linesort --two-opt --passes {passes}" if passes else "linesort"
-    vpype_cli.execute(command, document(20))
+    vpype_cli.execute(command, document(200))
     part, page = timed(partial(vpype_cli.execute, command, document(count)))
     if sys.argv[3:] == ["way"]:
         print(json.dumps({"ratio": page.layers[1].pen_up_length()[0] / spanning_tree(strokes(count))}))

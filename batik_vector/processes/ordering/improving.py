@@ -54,74 +54,71 @@ class _Tour:
 
     def __init__(self, order: Index, sites: Sites) -> None:
         self.order = order.copy()
-        self.x, self.y, self.group = sites.x, sites.y, sites.group
+        # Nobody's place, the last, is no number, and so is every distance to it.
+        self.x, self.y = np.append(sites.x, np.nan), np.append(sites.y, np.nan)
+        self.group, self.parted = sites.group, bool(sites.group.any())
         self.place = np.empty_like(order)
         self.counted = np.arange(len(order))
         self.place[order] = self.counted
         self.mate = np.full(len(order), NOBODY, np.intp)
         out, into = order[1:-1:2], order[2::2]
-        if self.group.any():
+        if self.parted:
             same = self.group[out >> 1] == self.group[into >> 1]
             out, into = out[same], into[same]
         self.mate[out], self.mate[into] = into, out
-        self.way = self.gap(self.counted, self.mate)
+        self.way = np.empty(len(order))
         """How far each end is from the one that it is joined to."""
-        self.reach = self.way.copy()
+        self.reach = np.empty(len(order))
         """The same, and for an end that is joined to none, beyond all."""
-        self.reach[self.mate < 0] = np.inf
+        self.measure(self.counted)
+
+    def measure(self, ends: Index) -> None:
+        """Measure how far ends are from those that they are joined to."""
+        mate = self.mate[ends]
+        self.way[ends] = way = self.gap(ends, mate)
+        way[mate < 0] = np.inf
+        self.reach[ends] = way
 
     def gap(self, a: Index, b: Index) -> Distances:
         """Return how far ends lie apart, 0 where one of them is nobody."""
-        x, y = self.x[a], self.y[a]
-        x -= self.x[b]
-        y -= self.y[b]
+        x, y = self.x.take(a), self.y.take(a)
+        x -= self.x.take(b)
+        y -= self.y.take(b)
         apart = lengths(x, y)
-        apart[(a < 0) | (b < 0)] = 0
-        return apart
-
-    def refresh(self, changed: Index) -> None:
-        """Measure the ways of some ends anew."""
-        mate = self.mate[changed]
-        self.way[changed] = way = self.gap(changed, mate)
-        way[mate < 0] = np.inf
-        self.reach[changed] = way
+        return np.fmax(apart, 0, out=apart)
 
     def turns(self, u: Index, v: Index, apart: Distances) -> _Changes:
-        """Return what turning round saves that joins these ends."""
+        """Return what turning round would save, but for the second gap, that joins these ends."""
         # Only what is passed the same way can be joined so.
-        alike = np.flatnonzero(((self.place[u] ^ self.place[v]) & 1) == 0)
+        alike = np.flatnonzero(((self.place.take(u) ^ self.place.take(v)) & 1) == 0)
         u, v = u[alike], v[alike]
-        saves = self.way[u] + self.way[v]
+        saves = self.way.take(u)
+        saves += self.way.take(v)
         saves -= apart[alike]
-        saves -= self.gap(self.mate[u], self.mate[v])
-        good = np.flatnonzero(saves >= LEAST)
-        u, v = u[good], v[good]
-        return _Changes(np.full(len(good), TURN), u, v, v, saves[good])
+        return _Changes(np.full(len(u), TURN), u, v, v, saves)
 
     def moves(self, u: Index, v: Index, apart: Distances) -> _Changes:
-        """Return what moving saves: the strokes from v on, away from what v is joined to, to behind u."""
+        """Return what moving would save, but for the gaps beside what moves and where it was.
+
+        Moved are the strokes from v on, away from what v is joined to, to behind u.
+        """
         order, place, mate, way = self.order, self.place, self.mate, self.way
-        from_ = place[v]
+        from_ = place.take(v)
         toward = 1 - 2 * (from_ & 1)
-        along = (place[u] - from_) * toward
+        along = (place.take(u) - from_) * toward
         last = from_ + toward * (2 * SIZES - 1)
         w = order.take(last, mode="clip")
         # No way is shorter than none.
         most = way.take(w)
-        most += way[u] + way[v] - apart
+        most += way.take(u) + way.take(v) - apart
         able = most >= LEAST
         able &= (along < 0) | (along >= 2 * SIZES)
         able &= (last >= 0) & (last < len(order)) & (mate.take(w) != u)
-        if self.group.any():
+        if self.parted:
             able &= self.group[v >> 1] == self.group[w >> 1]
         found = np.flatnonzero(able)
-        kind, some = found // len(u) + 1, found % len(u)
-        u, v, w = u[some], v[some], w.ravel()[found]
-        saves = most.ravel()[found]
-        saves -= self.gap(w, mate[u])
-        saves -= self.gap(mate[v], mate[w])
-        good = np.flatnonzero(saves >= LEAST)
-        return _Changes(kind[good], u[good], v[good], w[good], saves[good])
+        size, some = np.divmod(found, len(u)) if len(u) else (found, found)
+        return _Changes(size + 1, u[some], v[some], w.ravel()[found], most.ravel()[found])
 
     def turn(self, p: int, q: int) -> None:
         """Turn round what lies between two places that are passed the same way."""
@@ -165,12 +162,12 @@ def improved(order: Index, sites: Sites, pairs: Pairs, rounds: int = ROUNDS) -> 
     asked = np.ones(len(order), bool)
     whole = tour.way.sum()
     for _ in range(rounds):
-        some = np.flatnonzero(asked[u] | asked[v])
+        some = np.flatnonzero(asked.take(u) | asked.take(v))
         changes = _weighed(tour, u[some], v[some], apart[some])
         if not len(changes.u):
             break
         asked = _made(tour, changes)
-        tour.refresh(np.flatnonzero(asked))
+        tour.measure(np.flatnonzero(asked))
         before, whole = whole, tour.way.sum()
         if before - whole < WORTH * before:
             break
@@ -193,13 +190,30 @@ def _both_ends(pairs: Pairs, round_: NDArray[np.bool_]) -> tuple[Index, Index, D
 def _weighed(tour: _Tour, u: Index, v: Index, apart: Distances) -> _Changes:
     """Return the changes that save way, those that save most first."""
     # A new gap has to be shorter than one of those that it is for, or one of an end that is joined to nobody.
-    near = np.flatnonzero((apart < np.maximum(tour.reach[u], tour.reach[v])) & (tour.mate[u] != v))
+    mine, theirs = tour.reach.take(u), tour.reach.take(v)
+    near = np.flatnonzero((apart < np.maximum(mine, theirs)) & (tour.mate.take(u) != v))
     u, v, apart = u[near], v[near], apart[near]
-    parts = tour.turns(u, v, apart), tour.moves(*(np.concatenate(two) for two in ((u, v), (v, u), (apart, apart))))
-    kind, a, b, c, saves = (
-        np.concatenate([getattr(part, name) for part in parts]) for name in ("kind", "u", "v", "w", "saves")
+    turns = tour.turns(u, v, apart)
+    short, close = np.flatnonzero(apart < mine[near]), np.flatnonzero(apart < theirs[near])
+    moves = tour.moves(
+        np.concatenate((u[short], v[close])),
+        np.concatenate((v[short], u[close])),
+        np.concatenate((apart[short], apart[close])),
     )
-    best = np.argsort(-saves, kind="stable")
+    kind, a, b, c, saves = (
+        np.concatenate((getattr(turns, name), getattr(moves, name))) for name in ("kind", "u", "v", "w", "saves")
+    )
+    # Turning leaves a gap between what was joined to the two, moving one between what was joined to what moves.
+    turned = len(turns.u)
+    before = tour.mate.take(b)
+    gaps = tour.gap(
+        np.concatenate((before[:turned], c[turned:], before[turned:])),
+        np.concatenate((tour.mate.take(a), tour.mate.take(c[turned:]))),
+    )
+    saves -= gaps[: len(a)]
+    saves[turned:] -= gaps[len(a) :]
+    good = np.flatnonzero(saves >= LEAST)
+    best = good[np.argsort(-saves[good], kind="stable")]
     return _Changes(kind[best], a[best], b[best], c[best], saves[best])
 
 

@@ -11,10 +11,21 @@ from batik_vector.geometry.outlines import Index, Steps
 from batik_vector.processes.ordering.chaining import chained
 from batik_vector.processes.ordering.distances import distances
 from batik_vector.processes.ordering.improving import improved
+from batik_vector.processes.ordering.sites import Sites
 from tests.processes.strokes import random_lines, valid
 from tests.thorough import examples, long
 
 PLACE = st.tuples(st.integers(0, 400), st.integers(0, 400))
+
+
+NEAR = 7
+
+
+def first_and_better(ends: Steps, group: Index) -> tuple[Index, Index]:
+    sites = Sites.of(ends, group)
+    pairs = sites.near(NEAR)
+    first = chained(sites, pairs)
+    return first, improved(first, sites, pairs)
 
 
 def way(order: Index, ends: Steps, group: Index) -> int:
@@ -31,8 +42,7 @@ def test_each_stroke_is_passed_once_among_its_group_and_no_change_lengthens_the_
 ) -> None:
     ends = np.array([place for a, b, closed, _ in rows for place in (a, a if closed else b)], np.int64)
     group = np.array([row[3] for row in rows], np.intp)
-    first = chained(ends, group)
-    better = improved(first, ends, group)
+    first, better = first_and_better(ends, group)
     for order in (first, better):
         assert valid(order, len(rows))
         assert (np.diff(group[order >> 1]) >= 0).all()
@@ -58,15 +68,16 @@ def test_of_few_strokes_the_way_is_all_but_the_shortest(seed: int) -> None:
         for order in itertools.permutations(range(5))
         for turned in itertools.product((0, 1), repeat=5)
     )
-    assert way(improved(chained(ends, group), ends, group), ends, group) <= 1.1 * shortest
+    assert way(first_and_better(ends, group)[1], ends, group) <= 1.1 * shortest
 
 
 def test_an_order_is_improved_however_bad_it_is() -> None:
     ends = random_lines(400, 1).points
     group = np.zeros(400, np.intp)
     given = np.arange(800)
-    good = way(improved(chained(ends, group), ends, group), ends, group)
-    found = improved(given, ends, group)
+    good = way(first_and_better(ends, group)[1], ends, group)
+    sites = Sites.of(ends, group)
+    found = improved(given, sites, sites.near(NEAR))
     assert valid(found, 400)
     assert way(given, ends, group) > 10 * good
     assert way(found, ends, group) < 1.25 * good
@@ -74,4 +85,5 @@ def test_an_order_is_improved_however_bad_it_is() -> None:
 
 def test_strokes_on_one_place_are_all_passed() -> None:
     ends = np.zeros((200, 2), np.int64)
-    assert valid(improved(chained(ends, np.zeros(100, np.intp)), ends, np.zeros(100, np.intp)), 100)
+    for order in first_and_better(ends, np.zeros(100, np.intp)):
+        assert valid(order, 100)
