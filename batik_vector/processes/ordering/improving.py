@@ -201,9 +201,10 @@ def _weighed(tour: _Tour, u: Index, v: Index, apart: Distances) -> _Changes:
         np.concatenate((apart[short], apart[close])),
     )
     kind, a, b, c, saves = (
-        np.concatenate((getattr(turns, name), getattr(moves, name))) for name in ("kind", "u", "v", "w", "saves")
+        np.concatenate((getattr(turns, name), getattr(moves, name)))
+        for name in ("kind", "u", "v", "w", "saves")
     )
-    # Turning leaves a gap between what was joined to the two, moving one between what was joined to what moves.
+    # Turning leaves a gap between what was joined to the two, moving one beside what moves and one where it was.
     turned = len(turns.u)
     before = tour.mate.take(b)
     gaps = tour.gap(

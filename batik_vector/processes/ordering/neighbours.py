@@ -120,7 +120,7 @@ class _Strips:
         self.x[self.at], self.y[self.at] = x, y
 
     def seen(self, rows: slice, count: int, reach: Column) -> tuple[Index, Index, Column]:
-        """Return whom some places see, and the squares of how far; how far each looks is put into ``reach``."""
+        """Return whom some places see, and the squares of how far; put into ``reach`` how far each looks."""
         here, key, room = self.at[rows], self.key[rows], ABOVE * self.strip[rows]
         at = np.empty((len(here), 3), np.intp)
         at[:, 0] = self.key.searchsorted(key - self.height) + room - ABOVE

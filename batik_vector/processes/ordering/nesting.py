@@ -84,10 +84,12 @@ def _chained(count: int, shut: Index, child: Index, held: Index) -> Index:
 def _areas(strokes: Outlines) -> NDArray[np.int64]:
     """Return twice the area of each closed stroke, 0 of others."""
     points, rings = strokes.points, strokes.rings
-    after = np.arange(1, len(points) + 1)
-    after[rings[1:] - 1] = rings[:-1]
+    x, y = points[:, 0], points[:, 1]
+    first, last = rings[:-1], rings[1:] - 1
     # Whole numbers: what goes past their range on the way comes back.
-    cross = points[:, 0] * points[after, 1] - points[:, 1] * points[after, 0]
+    cross = np.empty(len(points), np.int64)
+    cross[:-1] = x[:-1] * y[1:] - y[:-1] * x[1:]
+    cross[last] = x[last] * y[first] - y[last] * x[first]
     return np.where(strokes.closed, np.abs(np.add.reduceat(cross, rings[:-1])), 0)
 
 

@@ -47,7 +47,7 @@ def test_most_of_the_nearest_are_found(crowded: bool) -> None:
     st.lists(st.tuples(*[st.integers(0, 3)] * 3, st.integers(-1, 70)), min_size=1, max_size=70),
     st.sampled_from([0, neighbours_module.FEW]),
 )
-def test_neighbours_are_of_the_same_group_and_no_twins(rows: list[tuple[int, int, int, int]], few: int) -> None:
+def test_neighbours_are_of_one_group_and_no_twins(rows: list[tuple[int, int, int, int]], few: int) -> None:
     table = np.array(rows, np.int64)
     places, group = table[:, :2] * 1000, table[:, 2]
     twin = np.where(table[:, 3] < len(table), table[:, 3], NOBODY)
