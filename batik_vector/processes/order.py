@@ -107,8 +107,8 @@ def in_order(strokes: Outlines) -> Outlines:
     """
     if len(strokes) < 2:
         return strokes
-    # Once the C library has taken back a piece of this size it keeps as much at hand. Without, what small orders
-    # need is given back to the system and asked for again all the time, which is a sixth of all they cost.
+    # Once the C library has taken back a piece of this size it keeps as much at hand. Without, what small
+    # orders need goes back to the system and is asked for again all the time: a sixth of all they cost.
     np.empty(AT_HAND)
     parent = parents(strokes)
     start = strokes.rings[:-1].copy()

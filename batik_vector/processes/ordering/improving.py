@@ -204,7 +204,8 @@ def _weighed(tour: _Tour, u: Index, v: Index, apart: Distances) -> _Changes:
         np.concatenate((getattr(turns, name), getattr(moves, name)))
         for name in ("kind", "u", "v", "w", "saves")
     )
-    # Turning leaves a gap between what was joined to the two, moving one beside what moves and one where it was.
+    # Turning leaves a gap between what was joined to the two, moving one beside what
+    # moves and one where it was.
     turned = len(turns.u)
     before = tour.mate.take(b)
     gaps = tour.gap(
@@ -228,31 +229,33 @@ def _made(tour: _Tour, changes: _Changes) -> NDArray[np.bool_]:
         strict=True,
     )
     # Single numbers are read and written through views in a third of the time.
-    mate, place, ask = memoryview(mates), memoryview(tour.place), memoryview(asked)
+    mate, place, ask = mates.data, tour.place.data, asked.data
     for kind, u, a, v, b, w, c in rows:
         ask[u] = ask[v] = True
-        if mate[u] != a or mate[v] != b or mate[w] != c:
-            continue
         at, first = place[u], place[v]
+        if mate[u] != a or mate[v] != b or mate[w] != c or abs(at - first) > MOST_MOVED:
+            continue
         if kind == TURN:
-            if (at ^ first) & 1 or abs(at - first) > MOST_MOVED:
+            if (at ^ first) & 1:
                 continue
             tour.turn(at, first)
+            _join(mate, ask, a, b)
         else:
             last = first + (1 - 2 * kind if first & 1 else 2 * kind - 1)
-            if place[w] != last or first <= at <= last or last <= at <= first or abs(at - first) > MOST_MOVED:
+            if place[w] != last or first <= at <= last or last <= at <= first:
                 continue
             tour.move(at, first, last)
-            mate[w] = a
-            if c >= 0:
-                mate[c] = b
-                ask[c] = True
-            ask[w] = True
+            _join(mate, ask, w, a)
+            _join(mate, ask, b, c)
         mate[u], mate[v] = v, u
-        if a >= 0:
-            mate[a] = w if kind else b
-            ask[a] = True
-        if b >= 0:
-            mate[b] = c if kind else a
-            ask[b] = True
     return asked
+
+
+def _join(mate: memoryview, ask: memoryview, one: int, two: int) -> None:
+    """Note that two ends are joined and are to be asked again; one of them may be nobody."""
+    if one >= 0:
+        mate[one] = two
+        ask[one] = True
+    if two >= 0:
+        mate[two] = one
+        ask[two] = True

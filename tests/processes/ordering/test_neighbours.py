@@ -20,7 +20,7 @@ def scattered(count: int, crowded: bool) -> Steps:
 
 
 def found(places: Steps, group: Index, twin: Index, count: int) -> set[tuple[int, int]]:
-    pairs = neighbours(*places.T.astype(float), group, twin, count)
+    pairs = neighbours(places[:, 0].astype(float), places[:, 1].astype(float), group, twin, count)
     assert (pairs.apart == distances(places[pairs.one], places[pairs.two])).all()
     each = [(min(pair), max(pair)) for pair in zip(pairs.one.tolist(), pairs.two.tolist(), strict=True)]
     assert len(each) == len(set(each))
