@@ -113,7 +113,7 @@ class Asked:
 def rows(results: Results, plan: Plan, said: str = "") -> list[Row]:
     """Return the rows of the acceptance list; ``said`` is what the page says by hand."""
     asked = Asked(results)
-    parts = (_svg, _dxf, _pdf, _three, _growth, _start, _slider, _motif, _library, _sweep, _grown)
+    parts = (_svg, _dxf, _pdf, _three, _growth, _start, _slider, _motif, _library, _sweep, _grown, _plotted)
     return [*(row for part in parts for row in part(asked, plan)), _explained(results, said)]
 
 
@@ -271,3 +271,9 @@ def _grown(asked: Asked, plan: Plan) -> Iterator[Row]:
     side = f"{plan.samples:,}"
     words = f"a field of {side} × {side} samples to smooth rings ≥ 2× faster than matplotlib's contours"
     yield asked.faster(12, words, "mandelbrot ringed/matplotlib", f"mandelbrot ringed/{BATIK}", 2)
+
+
+def _plotted(asked: Asked, plan: Plan) -> Iterator[Row]:
+    segments = f"{4 * plan.plotted**2:,}"
+    words = f"{segments} segments drawn once ≥ 300× faster than by vpype's `deduplicate`"
+    yield asked.faster(13, words, "plotted/vpype/deduplicate", f"plotted/{BATIK}/once", 300)

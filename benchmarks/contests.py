@@ -84,6 +84,8 @@ class Plan:
     """Squares in a row whose sides are drawn twice."""
     merged: int
     """Squares in a row whose sides are joined."""
+    plotted: int
+    """Squares in a row of which a plotter draws each side once."""
     strokes: tuple[int, ...]
     """Strokes that are brought into order."""
     cloth: tuple[int, ...]
@@ -111,6 +113,7 @@ FULL = Plan(
     overlays=(100, 1_000, 10_000),
     squares=40,
     merged=160,
+    plotted=80,
     strokes=(1_000, 10_000),
     cloth=(1, 3, 10),
     patterns=10_000,
@@ -128,6 +131,7 @@ QUICK = Plan(
     overlays=(100, 400),
     squares=12,
     merged=30,
+    plotted=12,
     strokes=(100, 400),
     cloth=(1,),
     patterns=200,
@@ -256,6 +260,21 @@ def lines(plan: Plan) -> list[Contest]:
         contest("lines drawn twice", plan.squares, "deduplicate,linemerge,linesort"),
         contest("lines joined", plan.merged, "linemerge,linesort"),
     ]
+
+
+def plotted(plan: Plan) -> list[Contest]:
+    """Strokes of a plotter, each drawn once, joined and in order."""
+    side = str(plan.plotted)
+    theirs = (
+        str(PEERS / "python"),
+        "-m",
+        "benchmarks.peers.vpype_lines",
+        "deduplicate,linemerge,linesort",
+        side,
+    )
+    mine = Entrant(BATIK, BATIK, own("plotting", side), True)
+    # The peer takes half a minute each time.
+    return [Contest("plotted", (mine, Entrant("vpype", "vpype", theirs, True)), min(plan.rounds, 3))]
 
 
 def order(plan: Plan) -> list[Contest]:
@@ -482,6 +501,7 @@ SECTIONS: Mapping[str, Callable[[Plan], list[Contest]]] = MappingProxyType(
         "dxf": dxf,
         "three": three,
         "lines": lines,
+        "plotted": plotted,
         "order": order,
         "growth": growth,
         "limits": limits,

@@ -20,6 +20,7 @@ TITLES: Mapping[str, str] = MappingProxyType(
         "dxf": "DXF",
         "three": "Three files of one drawing",
         "lines": "Lines drawn once and joined",
+        "plotted": "Strokes of a plotter",
         "order": "Strokes in order",
         "growth": "Growth",
         "limits": "Beside the least",
@@ -111,6 +112,21 @@ def lines(contests: Sequence[Contest], results: Results) -> Iterator[str]:
             shown = results.missing.get(f"{contest.name}/vpype") or cost(results, name)
             body.append((f"vpype `{command}`", f"{given:,}", shown, NONE if ratio is None else times(ratio)))
         yield from table(("", "segments", "CPU", "ratio of CPU"), body)
+        yield ""
+
+
+def plotted(contests: Sequence[Contest], results: Results) -> Iterator[str]:
+    """Yield what a plotter's passes take, vpype's beside ours."""
+    for contest in contests:
+        sides = int(contest.entrants[0].command[-1])
+        body = []
+        for pass_, command in (("once", "deduplicate"), ("joined", "linemerge"), ("ordered", "linesort")):
+            own, name = f"{contest.name}/{BATIK}/{pass_}", f"{contest.name}/vpype/{command}"
+            ratio = results.ratio(name, own)
+            theirs = results.missing.get(f"{contest.name}/vpype") or cost(results, name)
+            ratio_words = NONE if ratio is None else times(ratio)
+            body.append((f"{pass_}, vpype `{command}`", cost(results, own), theirs, ratio_words))
+        yield from table((f"{4 * sides * sides:,} segments", BATIK, "vpype", "ratio of CPU"), body)
         yield ""
 
 
@@ -327,6 +343,7 @@ SHOWN: Mapping[str, Callable[[Sequence[Contest], Results], Iterator[str]]] = Map
     {
         **dict.fromkeys(("svg", "pdf", "dxf", "three"), races),
         "lines": lines,
+        "plotted": plotted,
         "order": order,
         "growth": growth,
         "limits": limits,

@@ -12,7 +12,7 @@ import shapely
 
 from batik_vector import compile_recipe, read_recipe, write_artwork
 from batik_vector.library import Library
-from benchmarks import library, limits, own, readback, stages
+from benchmarks import library, limits, own, plotting, readback, stages
 from benchmarks.acceptance import Row, rows
 from benchmarks.contests import BATIK, FULL, QUICK, SEARCHES, SECTIONS, Contest, Entrant, facts
 from benchmarks.drawing import RING, evaluated, recipe
@@ -95,7 +95,7 @@ def test_what_was_not_measured_says_why() -> None:
     found.missing["svg alone/vpype_svg"] = "vpype could not be installed: no wheel"
     verdicts = rows(found, FULL)
     assert {row.passed for row in verdicts} == {None}
-    assert {row.line for row in verdicts} == set(range(1, 13))
+    assert {row.line for row in verdicts} == set(range(1, 14))
     assert by_words(verdicts, "SVG writer ≥ 100×").measured == "vpype could not be installed: no wheel"
 
 
@@ -171,6 +171,7 @@ def test_our_own_part_tells_every_stage(tmp_path: Path) -> None:
     assert mine["tiling"]["vertices"] == 4 * (RING + 1)
     assert set(stages.weld(4) | stages.join(4)) == set(limits.overlays(4)) == {"welding", "joining"}
     assert stages.once(4)["once"]["wall"] > 0
+    assert set(plotting.passes(4)) == {"once", "joined", "ordered"}
     own.prepare(4, tmp_path)
     for name in ("drawing.toml", "tiny.toml", "drawing.npy", "drawing.svg", "warm.svg"):
         assert (tmp_path / name).stat().st_size > 0

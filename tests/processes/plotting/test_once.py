@@ -1,12 +1,13 @@
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 import pytest
 import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 
 from batik_vector.errors import GeometryError
 from batik_vector.geometry.outlines import Outlines, nothing, to_polylines
@@ -14,6 +15,8 @@ from batik_vector.processes.ordering.distances import PARTS
 from batik_vector.processes.plotting.once import once
 from tests.processes.strokes import box, line, parts_of, strokes
 from tests.thorough import examples, long
+
+Segments: TypeAlias = NDArray[np.int64]
 
 PLACE = st.tuples(st.integers(0, 7), st.integers(0, 7)).map(lambda place: (1000 * place[0], 1000 * place[1]))
 POLYLINES = st.lists(
@@ -109,3 +112,32 @@ def test_nothing_is_nothing() -> None:
 def test_what_is_too_large_to_reckon_with_is_refused() -> None:
     with pytest.raises(GeometryError, match="3000000 mm large, expected at most 2 km"):
         once(strokes(line((0, 0), (3_000_000_000, 0))))
+
+
+def _doubles(count: int) -> tuple[Segments, Segments]:
+    """Short lines, and all of them with exact, reversed and partial doubles besides, mixed: (n, 2, 2)."""
+    draw = np.random.default_rng(3)
+    few, fifth = 2 * count // 5, count // 5
+    begin = draw.integers(0, 2_000_000, (few, 2))
+    step, times = draw.integers(1, 60, (few, 2)) * draw.choice([-1, 1], (few, 2)), draw.integers(10, 40, few)
+    whole = np.stack([begin, begin + step * times[:, None]], axis=1)
+    same, back, some = (draw.integers(0, few, fifth) for _ in range(3))
+    low = draw.integers(0, times[some] // 2)
+    high = draw.integers(times[some] // 2 + 1, times[some] + 1)
+    part = np.stack([begin[some] + step[some] * at[:, None] for at in (low, high)], axis=1)
+    return whole, draw.permutation(np.concatenate([whole, whole[same], whole[back][:, ::-1], part]))
+
+
+def test_of_100_000_segments_nothing_is_lost_and_nothing_drawn_twice() -> None:
+    whole, drawn = _doubles(100_000)
+    count = len(drawn)
+    ends = np.arange(count + 1)
+    left, _, doubled = once(Outlines(drawn.reshape(-1, 2), 2 * ends, ends, np.zeros(count, bool)))
+    union = float(np.hypot(*(whole[:, 1] - whole[:, 0]).T).sum())
+    found = to_polylines(left)
+    assert shapely.length(found).sum() == pytest.approx(union, rel=1e-6)
+    assert doubled.length / PARTS == pytest.approx(np.hypot(*np.diff(drawn, axis=1)[:, 0].T).sum() - union)
+    share = np.random.default_rng(4).random((count, 1))
+    places = shapely.points(drawn[:, 0] + share * (drawn[:, 1] - drawn[:, 0]))[::5]
+    near = shapely.STRtree(found).query_nearest(places, max_distance=1.0, all_matches=False)
+    assert np.unique(near[0]).tolist() == list(range(len(places)))
