@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import xml.etree.ElementTree as ET
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +15,9 @@ from PIL import Image
 
 from batik_vector.artwork import Artwork
 from batik_vector.export import PdfOptions, SvgOptions, render
+from batik_vector.geometry.outlines import to_polylines
+from batik_vector.machines import Machine
+from batik_vector.processes.options import PlotProcess
 from tests.clients import drawings, programs
 
 pytestmark = pytest.mark.clients
@@ -57,6 +61,38 @@ def test_vpype_gives_each_ink_a_pen_and_the_cloth_none(drawing: Artwork, tmp_pat
     rings = sum(len(shapely.get_rings(layer.areas)) for layer in drawing.layers)
     rings += sum(int(shapely.is_closed(layer.lines).sum()) for layer in drawing.layers)
     assert sum(shut.values()) == rings + 1
+
+
+def test_vpype_has_what_each_pen_of_a_plot_draws(drawing: Artwork, tmp_path: Path) -> None:
+    inks = [layer.ink.name for layer in drawing.layers]
+    plot = PlotProcess(once="all", pens={name: 3 * n + 2 for n, name in enumerate(inks)})  # type: ignore[arg-type]
+    prepared = plot.apply(drawing, Machine())
+    path = tmp_path / "plot.svg"
+    path.write_bytes(render(prepared, "svg", SvgOptions(cloth=False)))
+    root = ET.parse(programs.vpype(path)).getroot()
+    found = {layer.get(LABEL, ""): list(strokes_of(layer)) for layer in root.findall(f"{SVG}g")}
+    assert list(found) == [f"{3 * n + 2} {name}" for n, name in enumerate(inks)]
+    for tool, read in zip(prepared.tools, found.values(), strict=True):
+        mine = to_polylines(tool.strokes, 1000)
+        mine = shapely.transform(mine, lambda at: [0, drawing.cell.height] + at * [1, -1])
+        assert len(read) == len(mine)
+        assert shapely.length(read).sum() == pytest.approx(shapely.length(mine).sum(), rel=1e-4)
+        assert shapely.total_bounds(read) == pytest.approx(shapely.total_bounds(mine), abs=0.002)
+        # vpype takes an inch for 25.40000076 mm, and keeps the order.
+        assert shapely.hausdorff_distance(read, mine).max() < 0.005
+
+
+def strokes_of(layer: ET.Element) -> Iterator[shapely.LineString]:
+    """Yield the strokes of a layer in mm."""
+    for each in layer:
+        kind = each.tag.removeprefix(SVG)
+        if kind == "line":
+            words = " ".join(each.get(name, "") for name in ("x1", "y1", "x2", "y2"))
+        else:
+            assert kind in ("polygon", "polyline")
+            words = each.get("points", "")
+        at = np.array(re.split(r"[ ,]+", words.strip()), float).reshape(-1, 2) * 25.4 / 96
+        yield shapely.LineString(np.vstack([at, at[:1]]) if kind == "polygon" else at)
 
 
 def test_inkscapes_dxf_writers_leave_out_the_cloth(drawing: Artwork, tmp_path: Path) -> None:

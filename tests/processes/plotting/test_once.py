@@ -138,6 +138,6 @@ def test_of_100_000_segments_nothing_is_lost_and_nothing_drawn_twice() -> None:
     assert shapely.length(found).sum() == pytest.approx(union, rel=1e-6)
     assert doubled.length / PARTS == pytest.approx(np.hypot(*np.diff(drawn, axis=1)[:, 0].T).sum() - union)
     share = np.random.default_rng(4).random((count, 1))
-    places = shapely.points(drawn[:, 0] + share * (drawn[:, 1] - drawn[:, 0]))[::5]
+    places = np.asarray(shapely.points((drawn[:, 0] + share * (drawn[:, 1] - drawn[:, 0]))[::5]), object)
     near = shapely.STRtree(found).query_nearest(places, max_distance=1.0, all_matches=False)
     assert np.unique(near[0]).tolist() == list(range(len(places)))
