@@ -23,9 +23,11 @@ from pathlib import Path
 from PIL import Image, ImageChops
 
 from batik_vector import Artwork, Recipe, compile_cloth, compile_recipe, load_recipe
+from batik_vector.artwork import Page
 from batik_vector.export import PngOptions, render
 from batik_vector.library import included
 from batik_vector.library.measuring import measured
+from batik_vector.making.pages import prepared
 from batik_vector.recipe.outputs import PngOutput
 from batik_vector.tiling.cloth.field import repeated
 from batik_vector.tiling.cloth.yardage import Yardage
@@ -63,10 +65,12 @@ class Sample:
 
     def picture(self) -> bytes:
         """Return its picture as a PNG file."""
-        page = self.page
+        page: Page = self.page
         if isinstance(page, Artwork):
-            own = next((each.repeat for each in self.recipe.output if isinstance(each, PngOutput)), None)
-            page = repeated(page, *own or repeats(page.cell.width / page.cell.height))
+            own = next((each for each in self.recipe.output if isinstance(each, PngOutput)), None)
+            page = repeated(page, *own.repeat if own else repeats(page.cell.width / page.cell.height))
+            if own is not None:
+                page = prepared(page, own)[0]
         around = page.margins
         width = page.cell.width + (around.left + around.right) / STEPS_PER_MM
         height = page.cell.height + (around.bottom + around.top) / STEPS_PER_MM
@@ -112,6 +116,7 @@ SECTIONS = {
     "fractal": "Fractals, automata and other generators",
     "group": "The seventeen wallpaper groups",
     "border": "Borders and cloths: the seven friezes",
+    "machine": "For machines: a recipe and all its files",
     "figure": "The paper's figures",
 }
 """What the first word of a sample's name says of it, in the order of the gallery."""

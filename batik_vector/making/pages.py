@@ -41,12 +41,12 @@ def render_output(page: Page, output: OutputSpec, sink: BinaryIO) -> Mapping[str
     """
     if isinstance(page, Artwork):
         page = _set_out(page, getattr(output, "repeat", (1, 1)), getattr(output, "bleed", 0.0))
-    page, facts = _prepared(page, output)
+    page, facts = prepared(page, output)
     write_page(page, sink, output.format, output.options, check=False)
     return facts
 
 
-def _prepared(page: Page, output: OutputSpec) -> tuple[Page, Mapping[str, Any]]:
+def prepared(page: Page, output: OutputSpec) -> tuple[Page, Mapping[str, Any]]:
     """Return a page as the processes of an output leave it, and what these have to report."""
     if not output.process:
         return page, {}
@@ -55,9 +55,9 @@ def _prepared(page: Page, output: OutputSpec) -> tuple[Page, Mapping[str, Any]]:
     facts: dict[str, Any] = {}
     for number, process in enumerate(output.process):
         with _keyed(f"process[{number}]" if len(output.process) > 1 else "process"):
-            page = prepared = process.apply(page, output.machine_profile or Machine())
-        facts |= prepared.facts
-    return (with_travel(prepared) if getattr(output, "travel", False) else page), facts
+            page = done = process.apply(page, output.machine_profile or Machine())
+        facts |= done.facts
+    return (with_travel(done) if getattr(output, "travel", False) else page), facts
 
 
 @contextmanager

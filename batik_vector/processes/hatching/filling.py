@@ -19,8 +19,8 @@ from batik_vector.processes.hatching.spirals import spirals
 from batik_vector.processes.hatching.work import check_work, directions
 
 APART = 8
-"""Strokes end an eighth of the pen's width short of the edge, those of a second direction another eighth: what
-is joined along the edge would draw it twice."""
+"""Strokes end an eighth of the pen's width short of the edge, those of a second direction another eighth:
+what is joined along the edge would draw it twice."""
 THINNER = (2, 4, 8)
 """Parts of the inset that are tried, one after another, with areas too narrow for the whole."""
 
