@@ -114,7 +114,7 @@ FULL = Plan(
     squares=40,
     merged=160,
     plotted=80,
-    strokes=(1_000, 10_000),
+    strokes=(1_000, 10_000, 100_000),
     cloth=(1, 3, 10),
     patterns=10_000,
     variants=200,
@@ -277,20 +277,21 @@ def plotted(plan: Plan) -> list[Contest]:
     return [Contest("plotted", (mine, Entrant("vpype", "vpype", theirs, True)), min(plan.rounds, 3))]
 
 
+MOST_TURNED = 10_000
+"""Strokes up to which vpype's 2-opt takes part: its work grows with their square."""
+
+
 def order(plan: Plan) -> list[Contest]:
     """Strokes brought into an order with little way between them."""
 
     def contest(count: int) -> Contest:
         theirs = (str(PEERS / "python"), "-m", "benchmarks.peers.vpype_order")
-        return Contest(
-            f"order {count}",
-            (
-                Entrant(BATIK, BATIK, own("ordering", str(count)), True),
-                Entrant("0", "vpype `linesort`", (*theirs, "0", str(count)), True),
-                Entrant("5", "vpype `linesort --two-opt --passes 5`", (*theirs, "5", str(count)), True),
-            ),
-            plan.rounds,
-        )
+        entrants = [
+            Entrant(BATIK, BATIK, own("ordering", str(count)), True),
+            Entrant("0", "vpype `linesort`", (*theirs, "0", str(count)), True),
+            Entrant("5", "vpype `linesort --two-opt --passes 5`", (*theirs, "5", str(count)), True),
+        ]
+        return Contest(f"order {count}", tuple(entrants[: 3 if count <= MOST_TURNED else 2]), plan.rounds)
 
     return [contest(count) for count in plan.strokes]
 

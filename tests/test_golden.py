@@ -9,7 +9,7 @@ import pytest
 from PIL import Image, ImageOps
 
 from batik_vector.library import included
-from tools import golden
+from tools import golden, travel
 from tools.starters_sheet import SHEET
 
 MEND = "make golden draws it again; look at it before you keep it"
@@ -45,6 +45,24 @@ def test_the_sheet_of_the_starters_is_up_to_date() -> None:
 @pytest.mark.clients
 def test_what_the_library_knows_of_samples_and_starters_is_up_to_date() -> None:
     assert not golden.included_is_stale([golden.sample(path) for path in golden.samples()]), MEND
+
+
+@pytest.mark.clients
+def test_the_ways_of_a_pen_are_up_to_date() -> None:
+    assert not golden.travel_is_stale([golden.sample(path) for path in golden.samples()]), MEND
+
+
+@pytest.mark.parametrize("name", ["chrysanthemum-line", "kawung", "group-p6m"])
+def test_the_way_of_a_pen_is_as_the_page_says(name: str) -> None:
+    page = golden.sample(golden.SAMPLES / f"{name}.toml").page
+    assert travel.row(name, page) in travel.PAGE.read_text(encoding="utf-8"), MEND
+
+
+def test_every_sample_has_its_way_on_the_page() -> None:
+    told = travel.PAGE.read_text(encoding="utf-8").split(travel.HEAD)[1].splitlines()
+    assert [line.split(" | ")[0].removeprefix("| ") for line in told] == [
+        path.stem for path in golden.samples()
+    ]
 
 
 def test_no_sample_or_starter_has_changed_since_the_library_measured_it() -> None:

@@ -1,4 +1,4 @@
-"""Draws the pictures of samples and starters and the gallery, or tells which of them are out of date.
+"""Draws the pictures of samples and starters, the gallery and the table of ways, or tells what is stale.
 
     python -m tools.golden            draw what is out of date
     python -m tools.golden --check    only tell, and exit 1 where something is
@@ -32,6 +32,7 @@ from batik_vector.recipe.outputs import PngOutput
 from batik_vector.tiling.cloth.field import repeated
 from batik_vector.tiling.cloth.yardage import Yardage
 from batik_vector.units import STEPS_PER_MM, format_mm
+from tools import travel
 from tools.starters_sheet import SHEET, sheet
 
 SAMPLES = Path(__file__).resolve().parents[1] / "samples"
@@ -227,6 +228,16 @@ def included_is_stale(found: list[Sample]) -> bool:
     return not kept.exists() or kept.read_text(encoding="utf-8") != included_page(found)
 
 
+def travel_page(found: list[Sample]) -> str:
+    """Return the page that tells how far a pen travels for each sample."""
+    return travel.written((each.path.stem, each.page) for each in found)
+
+
+def travel_is_stale(found: list[Sample]) -> bool:
+    """Return whether that page tells other ways than are measured."""
+    return travel.PAGE.read_text(encoding="utf-8") != travel_page(found)
+
+
 def _packed(picture: Image.Image) -> Iterator[bytes]:
     """Yield the picture as PNG files, the next always smaller than the last."""
     for colours in (128, 64, 32, 16, 8):
@@ -269,6 +280,11 @@ def main() -> int:
         print(f"{included.MEASURED.name:<32} {'stale' if only_check else 'written'}")
         if not only_check:
             included.MEASURED.write_text(included_page(found), encoding="utf-8")
+    if travel_is_stale(found):
+        wrong += 1
+        print(f"{travel.PAGE.name:<32} {'stale' if only_check else 'written'}")
+        if not only_check:
+            travel.PAGE.write_text(travel_page(found), encoding="utf-8")
     for kept in sorted({*SAMPLES.glob("*.png")} - {each.picture_path for each in found}):
         wrong += 1
         print(f"{kept.name:<32} belongs to no recipe")

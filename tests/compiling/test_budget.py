@@ -84,7 +84,7 @@ BUDGETS = Budgets(
         "bytes per vertex, compiling a net": 102,
         "bytes per vertex, writing SVG": 42,
         "bytes per vertex, writing PDF": 46,
-        "bytes per vertex, writing DXF": 133,  # up to a million are brought into order together
+        "bytes per vertex, writing DXF": 90,  # up to a million are brought into order together
     }
 )
 pytestmark = pytest.mark.filterwarnings("always::tests.budgets.LooseBudgetWarning")
