@@ -11,6 +11,7 @@ import pytest
 
 from batik_vector import InkSpec, Placement, Recipe, TileSpec, compile_recipe
 from batik_vector.geometry.curves import trace
+from batik_vector.making.jobs import planned, read_jobs, run_quietly
 from batik_vector.recipe.loading import read_recipe
 from batik_vector.recipe.motif import Element, Rosette
 from tools import house, reference
@@ -99,3 +100,14 @@ def test_what_the_page_on_sweeps_says_in_python_can_be_run(
     (text,) = [text for kind, text in BLOCK.findall(page) if kind == "python"]
     exec(compile(text, "sweeps.md", "exec"), {})
     assert len(list(tmp_path.glob("four-square_*.svg"))) == 6
+
+
+def test_what_the_page_on_pens_asks_for_can_be_made(tmp_path: Path) -> None:
+    page = (ROOT / "docs" / "pens.md").read_text(encoding="utf-8")
+    (text,) = [text for kind, text in BLOCK.findall(page) if kind == "toml"]
+    recipe = tmp_path / "kawung.toml"
+    recipe.write_text((ROOT / "samples" / "kawung.toml").read_text(encoding="utf-8") + text, encoding="utf-8")
+    (job,) = planned(read_jobs([str(recipe)]), tmp_path)
+    plot = run_quietly(job)["files"][0]["process"]["plot"]
+    assert [(each["pen"], each["ink"]) for each in plot["pens"]] == [(1, "cotton"), (2, "soga")]
+    assert len(plot["doubled"]["places"]) == min(plot["doubled"]["stretches"], 10) > 0

@@ -150,7 +150,7 @@ class PlotProcess(ProcessSpec):
     def __post_init__(self) -> None:
         super().__post_init__()
         if self.margin and self.hidden is Hidden.KEEP:
-            raise GeometryError(f'margin = {format_mm(self.margin)}: expected hidden = "remove" beside it')
+            raise GeometryError(f'margin = {format_mm(self.margin)}, expected hidden = "remove" beside it')
 
 
 @frozen(kw_only=True)

@@ -111,7 +111,7 @@ def test_what_lies_under_a_higher_ink_is_drawn_unless_it_is_to_be_removed() -> N
 
 
 def test_a_margin_without_what_asks_for_it_is_refused() -> None:
-    with pytest.raises(GeometryError, match='margin = 1: expected hidden = "remove" beside it'):
+    with pytest.raises(GeometryError, match='margin = 1, expected hidden = "remove" beside it'):
         PlotProcess(margin=1.0)
 
 

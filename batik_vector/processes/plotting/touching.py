@@ -21,7 +21,7 @@ Ints: TypeAlias = NDArray[np.int64]
 MOST = 1 << 31
 """Steps from one edge of a drawing to the other, at most, so that areas of it are whole numbers yet: 2 km."""
 
-AT_ONCE = 1 << 21
+AT_ONCE = 1 << 19
 """Candidates that are looked at together: what is made of them fits in memory."""
 
 

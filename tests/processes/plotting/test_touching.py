@@ -13,7 +13,7 @@ from tests.thorough import examples, long
 
 PLACE = st.tuples(st.integers(-40, 40), st.integers(-25, 25))
 
-REACH, AT_ONCE = st.sampled_from([0, 1, 3]), st.sampled_from([3, 1 << 21])
+REACH, AT_ONCE = st.sampled_from([0, 1, 3]), st.sampled_from([3, 1 << 19])
 
 
 def _by_hand(places: Any, start: Any, end: Any, reach: int) -> set[tuple[int, int]]:
