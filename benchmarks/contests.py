@@ -296,6 +296,21 @@ def order(plan: Plan) -> list[Contest]:
     return [contest(count) for count in plan.strokes]
 
 
+def hatch(plan: Plan) -> list[Contest]:
+    """The drawing's marks filled at 0.5 mm."""
+    size = str(plan.rings)
+    ways = {
+        BATIK: ("parallel", "batik_vector, `parallel`, ink inside, and the edge"),
+        "bare": ("bare", "batik_vector, `parallel` up to the edge"),
+        "concentric": ("concentric", "batik_vector, `concentric`"),
+        "spiral": ("spiral", "batik_vector, `spiral`"),
+    }
+    theirs = (str(PEERS / "python"), "-m", "benchmarks.peers.vpype_hatch")
+    mine = [Entrant(name, says, own("hatching", way, size), True) for name, (way, says) in ways.items()]
+    peers = [Entrant(name, f"vpype `{name}`", (*theirs, name, size), True) for name in ("efill", "cfill")]
+    return [Contest("hatch", (*mine, *peers), min(plan.rounds, 3))]
+
+
 def growth(plan: Plan) -> list[Contest]:
     """The same drawing in many sizes, stage by stage; then marks that are welded, and lines joined."""
 
@@ -480,6 +495,11 @@ def facts(section: str, plan: Plan) -> list[Fact]:
             for contest in order(plan)
             for entrant in contest.entrants
         ]
+    if section == "hatch":
+        return [
+            Fact(f"hatch/{entrant.name} drawn", (*entrant.command, "drawn"))
+            for entrant in hatch(plan)[0].entrants
+        ]
     if section != "dxf":
         return []
     audit = (str(PEERS / "python"), "-m", "benchmarks.readback", "audit", "{folder}/drawing.dxf")
@@ -504,6 +524,7 @@ SECTIONS: Mapping[str, Callable[[Plan], list[Contest]]] = MappingProxyType(
         "lines": lines,
         "plotted": plotted,
         "order": order,
+        "hatch": hatch,
         "growth": growth,
         "limits": limits,
         "start": start,

@@ -22,6 +22,7 @@ TITLES: Mapping[str, str] = MappingProxyType(
         "lines": "Lines drawn once and joined",
         "plotted": "Strokes of a plotter",
         "order": "Strokes in order",
+        "hatch": "Areas hatched",
         "growth": "Growth",
         "limits": "Beside the least",
         "start": "Start-up",
@@ -146,6 +147,25 @@ def order(contests: Sequence[Contest], results: Results) -> Iterator[str]:
             body.append((entrant.says, results.missing.get(name) or cost(results, name), shown, left))
         yield from table((f"{contest.name.split()[-1]} strokes", "CPU", "ratio of CPU", "way"), body)
         yield ""
+
+
+def hatch(contests: Sequence[Contest], results: Results) -> Iterator[str]:
+    """Yield what it takes to fill areas with strokes, and how many and how long these are."""
+    (contest,) = contests
+    yield "`efill` (parallel, vpype-embroidery) goes up to the edge and along it again and again: each mark is"
+    yield "one stroke; `cfill` (concentric, vpype-cfill) begins with the edge. batik_vector keeps the ink"
+    yield "inside, but in the second row."
+    yield ""
+    body = []
+    for entrant in contest.entrants:
+        name = f"{contest.name}/{entrant.name}"
+        drawn = results.facts.get(f"{name} drawn")
+        told = [f"{drawn['strokes']:,}", f"{drawn['metres']:,.0f} m"] if drawn else [NONE, NONE]
+        ratios = [results.ratio(f"{contest.name}/{peer}", name) for peer in ("efill", "cfill")]
+        shown = [NONE if ratio is None else times(ratio) for ratio in ratios]
+        body.append((entrant.says, results.missing.get(name) or cost(results, name), *shown, *told))
+    yield from table(("0.5 mm apart", "CPU", "efill takes", "cfill takes", "strokes", "drawn"), body)
+    yield ""
 
 
 def growth(contests: Sequence[Contest], results: Results) -> Iterator[str]:
@@ -345,6 +365,7 @@ SHOWN: Mapping[str, Callable[[Sequence[Contest], Results], Iterator[str]]] = Map
         "lines": lines,
         "plotted": plotted,
         "order": order,
+        "hatch": hatch,
         "growth": growth,
         "limits": limits,
         "start": start,
