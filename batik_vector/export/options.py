@@ -45,6 +45,15 @@ class DxfVersion(enum.StrEnum):
     """AC1009: POLYLINE and VERTEX, no units. For old cutters."""
 
 
+class Origin(enum.StrEnum):
+    """What of a tile lies where a machine's coordinates are zero."""
+
+    CORNER = "corner"
+    """Its lower left corner."""
+    CENTRE = "centre"
+    """Its middle."""
+
+
 @frozen
 class SvgOptions:
     """Options of SVG."""
@@ -97,6 +106,33 @@ class DxfOptions:
     """Options of DXF."""
 
     version: Annotated[DxfVersion, Says("R2000, or R12 for old cutters")] = DxfVersion.R2000
+    order: Annotated[bool, Says("order contours for a tool: inside before outside, short ways between")] = (
+        True
+    )
+
+    def __post_init__(self) -> None:
+        check(self)
+
+
+@frozen
+class GcodeOptions:
+    """Options of G-code."""
+
+    arcs: Annotated[bool, Says("fit arcs (G2, G3) where they keep to the drawing")] = False
+    arc_tolerance: Annotated[
+        Annotated[Length, Between(0.0005, 10)] | None,
+        Says("how far arcs may stand from the drawing's vertices; the artwork's tolerance if unset"),
+    ] = None
+    feed: Annotated[
+        Annotated[float, Between(1, 100_000)] | None,
+        Says("mm/min with the tool down; the machine's if unset"),
+    ] = None
+    origin: Annotated[Origin, Says("what is at X0 Y0: the tile's lower left corner, or its middle")] = (
+        Origin.CORNER
+    )
+    offset: Annotated[
+        tuple[Length, Length], Says("how far right and up of the origin the drawing goes, as for a margin")
+    ] = (0.0, 0.0)
     order: Annotated[bool, Says("order contours for a tool: inside before outside, short ways between")] = (
         True
     )

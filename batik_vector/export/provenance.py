@@ -1,6 +1,6 @@
 """Where a file comes from: written into every format, and read back from it.
 
-SVG and PDF hold it as XML under our namespace, readable to people; DXF and PNG as one line of ASCII
+SVG and PDF hold it as XML under our namespace, readable to people; DXF, PNG and G-code as one line of ASCII
 (JSON, in base64 where a format gives characters meanings of its own). The recipe comes back as it was,
 to the character.
 
@@ -16,6 +16,7 @@ import json
 import re
 import zlib
 from collections.abc import Iterator
+from itertools import takewhile
 from pathlib import Path
 from typing import Any
 from xml.parsers import expat
@@ -33,6 +34,8 @@ MAX_RECIPE = 16 << 20
 """Bytes of a file, and of the provenance in it, past which it is refused."""
 DXF_CHUNK = 240
 """Characters in one DXF string; AutoCAD allows 255."""
+GCODE_CHUNK = 68
+"""Characters in one comment of G-code: grbl's lines have room for 80, and senders count them in."""
 
 
 class _FoundError(Exception):
@@ -65,14 +68,14 @@ def ascii_line(provenance: Provenance) -> str:
     return json.dumps(values, ensure_ascii=True)
 
 
-def ascii_chunks(provenance: Provenance) -> list[str]:
-    """Return a provenance as strings that DXF holds, the first of them the mark to know it by."""
+def ascii_chunks(provenance: Provenance, longest: int = DXF_CHUNK) -> list[str]:
+    """Return a provenance as strings without blanks, the first of them the mark to know it by."""
     line = base64.b64encode(ascii_line(provenance).encode("ascii")).decode("ascii")
-    return [DXF_MARK, *(line[at : at + DXF_CHUNK] for at in range(0, len(line), DXF_CHUNK))]
+    return [DXF_MARK, *(line[at : at + longest] for at in range(0, len(line), longest))]
 
 
 def read_provenance(path: str | Path) -> Provenance:
-    """Return the recipe, seed and version that an SVG, PDF, DXF or PNG of ours carries.
+    """Return the recipe, seed and version that an SVG, PDF, DXF, PNG or G-code of ours carries.
 
     Raises:
         RecipeError: where the file cannot be read, or carries none.
@@ -108,7 +111,7 @@ def _read(data: bytes) -> Provenance | None:
         return _from_png(data)
     if data[:200].lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<"):
         return _from_xml(data)
-    return _from_dxf(data)
+    return _from_text(data)
 
 
 def _from_line(line: str) -> Provenance:
@@ -237,19 +240,27 @@ def _from_png(data: bytes) -> Provenance | None:
     return None
 
 
-def _from_dxf(data: bytes) -> Provenance | None:
+def _from_text(data: bytes) -> Provenance | None:
+    """Return what a DXF or G-code carries."""
     at = data.find(DXF_MARK.encode("ascii"))
     if at < 0:
         return None
     lines = data[at : at + 2 * MAX_RECIPE].splitlines()
-    chunks = []
-    # Pairs of lines follow: a group code, then its value; strings have code 1, or 1000 in extended data.
-    for code, value in zip(lines[1::2], lines[2::2], strict=False):
-        if code.strip() not in (b"1", b"1000"):
-            break
-        chunks.append(value.strip())
+    comment = data[:at].rstrip(b" ")[-1:]
+    chunks = _in_comments(lines[1:], comment) if comment in (b";", b"(") else _in_pairs(lines[1:])
     try:
         line = base64.b64decode(b"".join(chunks), validate=True).decode("ascii")
     except (binascii.Error, UnicodeDecodeError):
         raise ValueError("its provenance is damaged") from None
     return _from_line(line)
+
+
+def _in_pairs(lines: list[bytes]) -> list[bytes]:
+    """Return the strings of DXF: a group code, then its value; theirs is 1, or 1000 in extended data."""
+    pairs = zip(lines[::2], lines[1::2], strict=False)
+    return [value.strip() for _, value in takewhile(lambda pair: pair[0].strip() in (b"1", b"1000"), pairs)]
+
+
+def _in_comments(lines: list[bytes], begun: bytes) -> list[bytes]:
+    """Return the comments of G-code, as long as lines are such."""
+    return [line.strip(b";() ") for line in takewhile(lambda line: line.startswith(begun), lines)]
