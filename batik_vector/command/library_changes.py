@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 WORTHWHILE = 6
 """Recipes below which other processes take longer to begin than they save."""
-FORMATS = ("toml", "svg", "pdf", "dxf", "png", "zip")
+FORMATS = ("toml", "svg", "pdf", "dxf", "gcode", "png", "zip")
 
 
 @click.command("add", short_help="Save recipes.")

@@ -98,6 +98,9 @@ FORMATS: Mapping[str, Format] = MappingProxyType(
         ),
         "pdf": Format(".pdf", PdfOptions, "1:1 pages with trim, bleed and layers", "batik_vector.export.pdf"),
         "dxf": Format(".dxf", DxfOptions, "closed polylines for cutters and CAD", "batik_vector.export.dxf"),
+        "gcode": Format(
+            ".gcode", GcodeOptions, "strokes in the words of a machine", "batik_vector.export.gcode"
+        ),
         "png": Format(".png", PngOptions, "a preview for the screen", "batik_vector.export.png"),
     }
 )

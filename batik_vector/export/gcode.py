@@ -24,28 +24,25 @@ import numpy as np
 from batik_vector.artwork import Ink, Page
 from batik_vector.errors import UnsupportedByFormatError
 from batik_vector.export.gcode_rows import Between, bounds, joined, spelled, straight_moves, with_arcs
-from batik_vector.export.options import GcodeOptions, Origin
+from batik_vector.export.options import GcodeOptions, Zero
 from batik_vector.export.provenance import GCODE_CHUNK, ascii_chunks
 from batik_vector.export.walk import GUIDE_PEN, Order, Outlines, in_memory, walk
 from batik_vector.machines import Machine
 from batik_vector.machines.gcode import Comment, Stop, codes, number, plain
 from batik_vector.processes.order import contours
-from batik_vector.processes.prepared import Prepared
 from batik_vector.units import STEPS_PER_MM
 
 DEFAULTS = GcodeOptions()
 GENERIC = Machine()
 """What speaks G-code as :class:`~batik_vector.machines.gcode.Gcode` has it when nothing else is said."""
-FEED = 1000.0
-"""mm/min where neither options nor machine say one: slow enough for most, and theirs to change."""
 
 
-def render(page: Page, options: GcodeOptions = DEFAULTS, machine: Machine = GENERIC) -> bytes:
+def render(page: Page, options: GcodeOptions = DEFAULTS) -> bytes:
     """Return a page as G-code; see :func:`write`."""
-    return in_memory(lambda sink: write(page, sink, options, machine))
+    return in_memory(lambda sink: write(page, sink, options))
 
 
-def write(page: Page, sink: BinaryIO, options: GcodeOptions = DEFAULTS, machine: Machine = GENERIC) -> None:
+def write(page: Page, sink: BinaryIO, options: GcodeOptions = DEFAULTS) -> None:
     """Write a page as G-code.
 
     Args:
@@ -58,22 +55,21 @@ def write(page: Page, sink: BinaryIO, options: GcodeOptions = DEFAULTS, machine:
         UnsupportedByFormatError: where the drawing reaches beyond the machine, or arcs are asked of one that
             takes none.
     """
-    given = isinstance(page, Prepared) or not options.order
-    walk(page, _Program(sink, options, machine), Order.GIVEN if given else Order.CONTOURS)
+    walk(page, _Program(sink, options), Order.CONTOURS if options.order else Order.GIVEN)
 
 
 class _Program:
     """Writes a program line by line; each begins with its line feed, but for the first of the file."""
 
-    def __init__(self, sink: BinaryIO, options: GcodeOptions, machine: Machine) -> None:
+    def __init__(self, sink: BinaryIO, options: GcodeOptions) -> None:
         self._sink, self._options = sink, options
-        self._machine = machine
+        self._machine = options.machine_profile or GENERIC
         self._gcode = self._machine.gcode
         if options.arcs and not self._gcode.arcs:
             raise UnsupportedByFormatError(
                 f"arcs = true: {self._named()} takes none, expected arcs = false or another machine"
             )
-        self._feed = options.feed or self._gcode.feed or FEED
+        self._feed = options.feed or self._gcode.feed or self._machine.motion.draw_speed * 60
         # Words of the tool that say a feed leave it behind for the cuts.
         words = (self._gcode.tool_down, self._gcode.tool_up, self._gcode.rapid)
         self._restated = any(word.startswith("F") for each in words for word in codes(each))
@@ -99,13 +95,14 @@ class _Program:
         if self._gcode.stop is Stop.PERCENT:
             yield "%"
         width, height = (number(steps / STEPS_PER_MM) for steps in (page.cell.columns, page.cell.rows))
-        yield from self._comments(f"{plain(page.title)}, {width} x {height} mm, for {plain(self._named())}")
+        yield from self._comments(f"{plain(page.title)}, {width} x {height} mm")
+        yield from self._comments(plain(self._machine.says)) if self._machine.says else ()
         for chunk in ascii_chunks(page.provenance, GCODE_CHUNK):
             yield from self._comments(chunk)
         yield "G21 G90 G17" + (" G91.1" if self._options.arcs else "")
 
     def _named(self) -> str:
-        return f'"{self._machine.name}"' if self._machine.name else "any machine"
+        return f'the machine ("{self._machine.says}")' if self._machine.says else "the machine"
 
     def _comments(self, words: str) -> list[str]:
         """Return a comment as the machine takes it, if it takes any."""
@@ -135,7 +132,8 @@ class _Program:
         on = self._down and bool((moves.points[0] == self._at).all())
         self._sink.write(spelled(moves, self._first(on), self._others()))
         self._down, self._feed_due = True, False
-        self._at, self._motion = moves.points[-1], int(moves.motions[-1])
+        # A view would keep all the points.
+        self._at, self._motion = moves.points[-1].copy(), int(moves.motions[-1])
         low, high = bounds(moves)
         self._low, self._high = np.minimum(self._low, low), np.maximum(self._high, high)
 
@@ -190,14 +188,14 @@ class _Program:
         if size is None:
             return
         sizes = [round(side * STEPS_PER_MM) for side in size]
-        lowest = [-(side // 2) if self._options.origin is Origin.CENTRE else 0 for side in sizes]
+        lowest = [-(side // 2) if self._options.origin is Zero.CENTRE else 0 for side in sizes]
         for axis, name in enumerate("xy"):
             low, high = int(self._low[axis]), int(self._high[axis])
             least, most = lowest[axis], lowest[axis] + sizes[axis]
             if low < least or high > most:
                 raise UnsupportedByFormatError(
                     f"{name} runs from {_mm(low)} to {_mm(high)} mm, and {self._named()} "
-                    f"from {_mm(least)} to {_mm(most)} mm: {_remedy(low, high, least, most, name)}"
+                    f"reaches from {_mm(least)} to {_mm(most)} mm: {_remedy(low, high, least, most, name)}"
                 )
 
     def _filled(self, words: str) -> str:
@@ -215,7 +213,7 @@ def _line(words: str) -> bytes:
 def _shift(page: Page, options: GcodeOptions) -> tuple[int, int]:
     """Return how far right and up of the cell's corner the drawing goes, in steps."""
     right, up = (round(each * STEPS_PER_MM) for each in options.offset)
-    if options.origin is Origin.CENTRE:
+    if options.origin is Zero.CENTRE:
         right, up = right - page.cell.columns // 2, up - page.cell.rows // 2
     return right, up
 

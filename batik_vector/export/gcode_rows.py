@@ -161,7 +161,7 @@ def _centres(centres: NDArray[np.int64]) -> Words:
 
 
 def _fixed(lead: bytes, values: NDArray[np.int64]) -> Characters:
-    """Return tenths of steps, less than 10 m of them, as millimetres with four decimals: twelve characters."""
+    """Return tenths of steps, of less than 10 m, as millimetres with four decimals: twelve characters."""
     sign = np.where(values < 0, np.uint8(ord("-")), np.uint8(0))[:, None]
     whole, rest = np.divmod(np.abs(values), _PER_MM)
     # A one before the decimals keeps their zeros.

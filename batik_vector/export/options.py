@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import enum
+from dataclasses import field
 from typing import Annotated
 
-from batik_vector.fields import Between, Length, Says, check
+from batik_vector.fields import HIDDEN, Between, Length, Says, check
+from batik_vector.machines.profile import Machine
 from batik_vector.values import frozen
 
 
@@ -45,7 +47,7 @@ class DxfVersion(enum.StrEnum):
     """AC1009: POLYLINE and VERTEX, no units. For old cutters."""
 
 
-class Origin(enum.StrEnum):
+class Zero(enum.StrEnum):
     """What of a tile lies where a machine's coordinates are zero."""
 
     CORNER = "corner"
@@ -127,8 +129,8 @@ class GcodeOptions:
         Annotated[float, Between(1, 100_000)] | None,
         Says("mm/min with the tool down; the machine's if unset"),
     ] = None
-    origin: Annotated[Origin, Says("what is at X0 Y0: the tile's lower left corner, or its middle")] = (
-        Origin.CORNER
+    origin: Annotated[Zero, Says("what is at X0 Y0: the tile's lower left corner, or its middle")] = (
+        Zero.CORNER
     )
     offset: Annotated[
         tuple[Length, Length], Says("how far right and up of the origin the drawing goes, as for a margin")
@@ -136,6 +138,8 @@ class GcodeOptions:
     order: Annotated[bool, Says("order contours for a tool: inside before outside, short ways between")] = (
         True
     )
+    machine_profile: Machine | None = field(default=None, metadata={HIDDEN: True})
+    """The machine whose words are written; without one, a pen on a Z axis."""
 
     def __post_init__(self) -> None:
         check(self)

@@ -186,12 +186,12 @@ class _Chords:
 
     def _radius(self, height: Array) -> Array:
         safe = np.where(height == 0, 1.0, np.abs(height))
-        return (self.length * self.length / 4 + safe * safe) / (2 * safe)
+        return np.asarray((self.length * self.length / 4 + safe * safe) / (2 * safe))
 
     def _off(self, height: Array) -> Array:
         """Return how far outside its arc's circle each vertex lies."""
         y = self.y - self.centre(height)[self.own]
-        return np.sqrt(self.x * self.x + y * y) - self._radius(height)[self.own]
+        return np.asarray(np.sqrt(self.x * self.x + y * y) - self._radius(height)[self.own])
 
     def error(self, height: Array, tolerance: float, sampling: float) -> tuple[Array, NDArray[np.bool_]]:
         """Return the largest error at a vertex of each run, and whether the arc will do but for that.

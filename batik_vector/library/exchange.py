@@ -38,7 +38,7 @@ from batik_vector.library.values import Version
 MANIFEST = "library.json"
 FORMAT = 1
 """The version of the manifest."""
-RECIPES, COMPILED = (".toml",), (".svg", ".pdf", ".dxf", ".png")
+RECIPES, COMPILED = (".toml",), (".svg", ".pdf", ".dxf", ".gcode", ".png")
 MOST_MEMBERS, MOST_BYTES, MOST_OF_ONE = 200_000, 1 << 30, 64 << 20
 """What a zip may hold: files, bytes of them all unpacked, and bytes of one."""
 EXPECTED = "expected TOML files or what was compiled from them"

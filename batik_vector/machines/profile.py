@@ -10,6 +10,7 @@ from dataclasses import field
 from typing import Annotated
 
 from batik_vector.fields import Between, Length, Says, check
+from batik_vector.machines.gcode import Gcode
 from batik_vector.machines.limits import Limits
 from batik_vector.values import frozen
 
@@ -57,6 +58,7 @@ class Machine:
     tool: Annotated[Tool, Says("what meets the material")] = field(default_factory=Tool)
     motion: Annotated[Motion, Says("how fast it moves")] = field(default_factory=Motion)
     limits: Annotated[Limits, Says("what it can still draw")] = field(default_factory=Limits)
+    gcode: Annotated[Gcode, Says("how it is spoken to in G-code")] = field(default_factory=Gcode)
     sources: Annotated[dict[str, str], Says("where the numbers come from, by their keys")] = field(
         default_factory=dict
     )

@@ -7,7 +7,7 @@ import re
 from dataclasses import field, fields
 from typing import Annotated, Any, ClassVar, TypeAlias
 
-from batik_vector.export.options import DxfOptions, PdfOptions, PngOptions, SvgOptions
+from batik_vector.export.options import DxfOptions, GcodeOptions, PdfOptions, PngOptions, SvgOptions
 from batik_vector.fields import HIDDEN, Alone, Between, Length, OneOf, Says, Text, check
 from batik_vector.machines.profile import Machine
 from batik_vector.processes.options import AnyProcess
@@ -105,6 +105,14 @@ class DxfOutput(OutputSpec, DxfOptions):
 
 
 @frozen(kw_only=True)
+class GcodeOutput(OutputSpec, GcodeOptions):
+    """G-code: strokes for plotters, lasers, drag knives and wax pens that speak it."""
+
+    format = "gcode"
+    writer = GcodeOptions
+
+
+@frozen(kw_only=True)
 class PngOutput(OutputSpec, PngOptions):
     """A PNG file: a preview for the screen."""
 
@@ -115,7 +123,7 @@ class PngOutput(OutputSpec, PngOptions):
 
 
 OUTPUTS: dict[str, type[OutputSpec]] = {
-    output.format: output for output in (SvgOutput, PdfOutput, DxfOutput, PngOutput)
+    output.format: output for output in (SvgOutput, PdfOutput, DxfOutput, GcodeOutput, PngOutput)
 }
 """The catalogue of formats that a recipe may ask for."""
 

@@ -57,7 +57,8 @@ class Program:
 def read(data: bytes) -> Program:
     """Run a program in which a Z of zero or less, or M3 or M4 until M5, is down."""
     lines = data.decode("ascii").splitlines()
-    assert data.endswith(b"\n") and max(map(len, lines)) <= 80
+    assert data.endswith(b"\n")
+    assert max(map(len, lines)) <= 80
     out = Program([], [], [], ended=False, pauses=0)
     machine = _Machine(out)
     percent = lines[0] == "%"
@@ -69,7 +70,8 @@ def read(data: bytes) -> Program:
             continue
         out.comments += [each.strip("; ()") for each in COMMENT.findall(line)]
         bare = COMMENT.sub("", line)
-        assert "(" not in bare and ")" not in bare
+        assert "(" not in bare
+        assert ")" not in bare
         words = WORD.findall(bare.upper())
         assert WORD.sub("", bare).strip() == "", line
         if words:
@@ -120,7 +122,8 @@ class _Machine:
 
     def move(self, values: dict[str, float]) -> None:
         motion = int(self.modal["motion"])
-        assert self.modal.get("G21") == 21 and self.modal.get("G90") == 90, "no unit"
+        assert self.modal.get("G21") == 21, "no unit"
+        assert self.modal.get("G90") == 90
         if "Z" in values:
             assert not values.keys() & {"X", "Y"}
             assert motion == 0 or "feed" in self.modal
@@ -135,7 +138,9 @@ class _Machine:
         if motion == 0:
             assert not down, "a rapid move with the tool down"
             return
-        assert down and before is not None and "feed" in self.modal
+        assert down
+        assert before is not None
+        assert "feed" in self.modal
         centre = None
         if motion in (2, 3):
             assert self.modal.get("G91.1") == 91.1
@@ -143,7 +148,8 @@ class _Machine:
             radii = [np.hypot(x - centre[0], y - centre[1]) for x, y in (before, to)]
             assert abs(radii[0] - radii[1]) < 0.002
         else:
-            assert "I" not in values and before != to, "a move without length"
+            assert "I" not in values
+            assert before != to, "a move without length"
         if self.stroke is None:
             self.stroke = Stroke(before, self.tool)
             self.out.strokes.append(self.stroke)
@@ -159,7 +165,8 @@ def along(stroke: Stroke, steps: int = 64) -> Iterator[NDArray[np.float64]]:
             yield np.stack([at, to])
         else:
             centre = np.array(cut.centre)
-            (first, last), radius = (np.arctan2(*(each - centre)[::-1]) for each in (at, to)), np.hypot(*(at - centre))
+            first, last = (np.arctan2(*(each - centre)[::-1]) for each in (at, to))
+            radius = np.hypot(*(at - centre))
             if cut.motion == 3 and last <= first:
                 last += 2 * np.pi
             if cut.motion == 2 and last >= first:

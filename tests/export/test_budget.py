@@ -14,7 +14,7 @@ import shapely
 
 from batik_vector.artwork import Artwork, Cell, Ink, Layer
 from batik_vector.artwork import page as pages
-from batik_vector.export import DxfOptions, PdfOptions, SvgOptions, pdf, render, write_page
+from batik_vector.export import DxfOptions, GcodeOptions, PdfOptions, SvgOptions, pdf, render, write_page
 from batik_vector.export.numbers import Spelling
 from batik_vector.processes import order
 
@@ -26,6 +26,7 @@ SETTINGS: list[tuple[str, Any]] = [
     ("pdf", PdfOptions()),
     ("dxf", DxfOptions()),
     ("dxf", DxfOptions("R12")),  # type: ignore[arg-type]
+    ("gcode", GcodeOptions()),
 ]
 SIDES = 48
 """Corners of each mark."""

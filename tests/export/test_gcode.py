@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 from dataclasses import replace
 from pathlib import Path
@@ -19,19 +20,24 @@ from batik_vector.export import GcodeOptions, gcode
 from batik_vector.export.provenance import read_provenance
 from batik_vector.export.walk import Order, RecordingSurface, walk
 from batik_vector.geometry.outlines import MM, of_polylines
-from batik_vector.machines import Machine
+from batik_vector.machines import Machine, Motion
 from batik_vector.machines.gcode import Gcode
 from tests.export import gcode_reader
 from tests.export.gcode_reader import Program, along
 
 from .drawings import InPieces, disc, empty, geometries, line, sample
 
-SERVO = {"tool_down": "M3 S{s_down}\nG4 P{dwell_down}", "tool_up": "M5\nG4 P0.2", "s_down": 90, "dwell_down": 0.3}
+SERVO = {
+    "tool_down": "M3 S{s_down}\nG4 P{dwell_down}",
+    "tool_up": "M5\nG4 P0.2",
+    "s_down": 90,
+    "dwell_down": 0.3,
+}
 
 
 def written(page: Any, words: dict[str, Any] | None = None, size: Any = None, **options: Any) -> bytes:
-    machine = Machine(name="bench", size=size, gcode=Gcode(**(words or {})))
-    return gcode.render(page, GcodeOptions(**options), machine)
+    machine = Machine(says="bench", size=size, gcode=Gcode(**(words or {})))
+    return gcode.render(page, GcodeOptions(**options, machine_profile=machine))
 
 
 def run(page: Any, words: dict[str, Any] | None = None, **options: Any) -> Program:
@@ -48,7 +54,7 @@ def wanted(page: Any, order: Order = Order.CONTOURS) -> list[list[list[float]]]:
     for name, arguments in surface.calls:
         if name in ("areas", "lines"):
             points, rings = arguments[0].repeating()  # type: ignore[attr-defined]
-            out += [(points[a:b] / 1000).tolist() for a, b in zip(rings, rings[1:], strict=False)]
+            out += [(points[a:b] / 1000).tolist() for a, b in itertools.pairwise(rings)]
     return out
 
 
@@ -93,7 +99,9 @@ def test_the_feed_is_the_options_the_machines_or_its_motions() -> None:
     def feed(**words: Any) -> set[float]:
         return {cut.feed for stroke in run(sample(), words).strokes for cut in stroke.cuts}
 
-    assert feed() == {gcode.FEED}
+    slow = Machine(motion=Motion(draw_speed=12.5))
+    data = gcode.render(sample(), GcodeOptions(machine_profile=slow))
+    assert {cut.feed for stroke in gcode_reader.read(data).strokes for cut in stroke.cuts} == {750}
     assert feed(feed=777) == {777}
 
 
@@ -120,7 +128,8 @@ def test_guides_are_left_out() -> None:
 
 def test_an_empty_page_is_a_program_that_ends() -> None:
     program = run(empty())
-    assert not program.strokes and not program.pauses
+    assert not program.strokes
+    assert not program.pauses
 
 
 @pytest.mark.parametrize(("stop", "last"), [("M2", "M2"), ("M30", "M30"), ("%", "%")])
@@ -143,7 +152,7 @@ def test_words_are_the_machines() -> None:
     assert "\nG21 G90 G17\nM104 S80\nM109 S80\nM5\nG4 P250\n" in text
     assert "\nM0 (fit wax 1 mm)\nT1 M6\n" in text
     assert "\nM0 (fit Indigo 2 1.25 mm)\nT3 M6\nG0 X" in text
-    assert re.search(r"\nG0 X[\d.]+ Y[\d.]+\nM3 S90\nG4 P0.3\nG1 F1000 X", text)
+    assert re.search(r"\nG0 X[\d.]+ Y[\d.]+\nM3 S90\nG4 P0.3\nG1 F3000 X", text)
 
 
 def test_first_of_all_the_tool_is_lifted() -> None:
@@ -151,13 +160,14 @@ def test_first_of_all_the_tool_is_lifted() -> None:
     assert text.index("\nG0 Z5\n") < text.index("\nG0 X")
 
 
-NASTY = 'a (b) ; M2 % {feed}\nG0 Z-50 (c'
+NASTY = "a (b) ; M2 % {feed}\nG0 Z-50 (c"
 
 
 @pytest.mark.parametrize("comment", [";", "()", "none"])
 def test_names_do_nothing(comment: str) -> None:
     artwork = sample(title=NASTY)
-    layers = tuple(replace(layer, ink=replace(layer.ink, name=NASTY + str(k))) for k, layer in enumerate(artwork.layers))
+    inks = [replace(layer.ink, name=NASTY + str(k)) for k, layer in enumerate(artwork.layers)]
+    layers = tuple(replace(layer, ink=ink) for layer, ink in zip(artwork.layers, inks, strict=True))
     artwork = replace(artwork, layers=layers)
     words = {"comment": comment, "tool_change": "M0 (fit {ink})"}
     program = run(artwork, words)
@@ -181,12 +191,14 @@ def test_without_comments_it_does_not() -> None:
 
 
 def test_what_reaches_beyond_the_machine_is_refused_with_numbers() -> None:
-    with pytest.raises(UnsupportedByFormatError, match=r'x runs from 1 to 39 mm, and "bench" from 0 to 30 mm: '
+    bench = r'the machine \("bench"\) reaches'
+    with pytest.raises(UnsupportedByFormatError, match=rf"x runs from 1 to 39 mm, and {bench} from 0 to 30 mm: "
                        r"it is 38 mm long, expected 30 mm at most"):  # fmt: skip
         written(sample(), size=(30, 40))
-    with pytest.raises(ExportError, match=r"y runs from -9 to .* mm, .* from 0 to 40 mm: expected an offset 9 mm larger in y"):
+    with pytest.raises(ExportError, match=rf"y runs from -9 to .* mm, and {bench} from 0 to 40 mm: "
+                       r"expected an offset 9 mm larger in y"):  # fmt: skip
         written(sample(), size=(40, 40), offset=(0, -10))
-    with pytest.raises(ExportError, match=r"x runs from -19 to 19 mm, .* from -16 to 16 mm"):
+    with pytest.raises(ExportError, match=rf"x runs from -19 to 19 mm, and {bench} from -16 to 16 mm"):
         written(sample(), size=(32, 40), origin="centre")
     assert written(sample(), size=(39, 40))
     assert written(sample(), size=(40, 30), origin="centre")
@@ -202,7 +214,8 @@ def test_arcs_are_counted_in_what_is_reached() -> None:
 
 
 def test_arcs_asked_of_a_machine_that_takes_none() -> None:
-    with pytest.raises(UnsupportedByFormatError, match='arcs = true: "bench" takes none, expected arcs = false'):
+    words = r'arcs = true: the machine \("bench"\) takes none, expected arcs = false'
+    with pytest.raises(UnsupportedByFormatError, match=words):
         written(sample(), {"arcs": False}, arcs=True)
 
 

@@ -20,6 +20,7 @@ from batik_vector.artwork import page as pages
 from batik_vector.errors import ExportError, UnsupportedByFormatError
 from batik_vector.export import (
     DxfOptions,
+    GcodeOptions,
     PdfOptions,
     PngOptions,
     SvgOptions,
@@ -46,6 +47,7 @@ SETTINGS: list[tuple[str, Any]] = [
     ("pdf", PdfOptions(inks="spot", cloth=False)),  # type: ignore[arg-type]
     ("dxf", DxfOptions()),
     ("dxf", DxfOptions("R12")),  # type: ignore[arg-type]
+    ("gcode", GcodeOptions(arcs=True)),
     ("png", PngOptions(dpi=20)),
 ]
 

@@ -104,7 +104,7 @@ def test_other_files_are_told_from_ours(tmp_path: Path, data: bytes) -> None:
     fault(tmp_path, data)
 
 
-@pytest.mark.parametrize("format", ["svg", "pdf", "dxf", "png"])
+@pytest.mark.parametrize("format", ["svg", "pdf", "dxf", "gcode", "png"])
 def test_damage_is_reported(tmp_path: Path, format: str) -> None:
     data = render(sample(), format)
     for cut in (len(data) // 50, len(data) // 3):

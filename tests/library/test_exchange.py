@@ -65,7 +65,7 @@ def test_a_zip_of_the_library_makes_another_library_of_the_same(library: Library
         assert [note.text for note in other.notes("dots")] == ["One\nand two"]
 
 
-@pytest.mark.parametrize("format_", ["svg", "pdf", "dxf", "png"])
+@pytest.mark.parametrize("format_", ["svg", "pdf", "dxf", "gcode", "png"])
 def test_a_compiled_file_carries_its_recipe_back(library: Library, tmp_path: Path, format_: str) -> None:
     library.add("dots", recipe(2), measured=NOTHING)
     path = tmp_path / f"dots.{format_}"

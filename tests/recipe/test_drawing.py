@@ -109,7 +109,7 @@ def test_what_lies_in_the_origin_can_be_told(tmp_path: Path) -> None:
         assert shapely.total_bounds(layer.areas)[:2].tolist() == list(low)
 
 
-@pytest.mark.parametrize("suffix", ["svg", "pdf", "dxf", "png"])
+@pytest.mark.parametrize("suffix", ["svg", "pdf", "dxf", "gcode", "png"])
 def test_a_compiled_file_compiles_from_itself_alone(tmp_path: Path, suffix: str) -> None:
     first = tmp_path / f"first.{suffix}"
     write_artwork(compiled(tmp_path), first)

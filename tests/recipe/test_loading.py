@@ -230,7 +230,7 @@ def test_a_fault_that_was_set_is_told_of_the_setting_and_others_of_their_line() 
 # Files that say which recipe made them.
 
 
-@pytest.mark.parametrize("suffix", ["svg", "pdf", "dxf", "png"])
+@pytest.mark.parametrize("suffix", ["svg", "pdf", "dxf", "gcode", "png"])
 def test_a_compiled_file_is_its_recipe(tmp_path: Path, suffix: str) -> None:
     recipe = read_recipe(SMALL, overrides=["title=Dots & <more>"])
     first = write_artwork(compile_recipe(recipe), tmp_path / f"a.{suffix}")
