@@ -29,6 +29,7 @@ from batik_vector.geometry.maps import VARIATIONS
 from batik_vector.geometry.regions import FillRule
 from batik_vector.library.features import FEATURES
 from batik_vector.machines import MACHINES, Limits, Machine, Motion, Tool, Twice
+from batik_vector.machines.gcode import Comment, Gcode, Stop
 from batik_vector.processes.hatching.options import HATCHES
 from batik_vector.processes.options import PROCESSES
 from batik_vector.recipe.border import BorderSpec, Corner, Ends, Facing, RailSpec
@@ -290,9 +291,11 @@ def page() -> str:
     lines += catalogue("`process` of an output", "`kind`", PROCESSES)
     lines += catalogue("`hatch` of a process", "`kind`", HATCHES)
     lines += section("Machines' profiles", Machine, 2)
-    profile: dict[str, type] = {"tool": Tool, "motion": Motion, "limits": Limits}
+    profile: dict[str, type] = {"tool": Tool, "motion": Motion, "limits": Limits, "gcode": Gcode}
     for key, table_of in profile.items():
         lines += section(f"`[{key}]`", table_of)
+    lines += words("stop (of gcode)", Stop)
+    lines += words("comment (of gcode)", Comment)
     return "\n".join(lines).rstrip() + "\n"
 
 

@@ -171,6 +171,8 @@ clients_ready() {
     done
     programs_ready inkscape:inkscape librecad:librecad qpdf:qpdf pdftocairo:poppler-utils mutool:mupdf-tools \
         gs:ghostscript $browser
+    # An interpreter of G-code; not every distribution has it.
+    (programs_ready rs274:linuxcnc-uspace) || say "LinuxCNC cannot be installed: its tests will say so"
     # Inkscape's writers of other formats are Python, and take the system's.
     /usr/bin/python3 -c 'import cssselect, lxml, numpy' 2>/dev/null ||
         system_needs python3-cssselect python3-lxml python3-numpy

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import subprocess
 from collections.abc import Iterator, Sequence
@@ -125,6 +126,14 @@ def librecad(dxf: Path) -> Path:
     folder.mkdir()
     run("librecad", "dxf2pdf", "--monochrome", "--directory", folder, dxf, home=dxf.parent)
     return folder / dxf.with_suffix(".pdf").name
+
+
+def rs274(program: Path) -> list[str]:
+    """Return the canonical motions and settings that LinuxCNC's interpreter makes of a program."""
+    tools = program.with_name("tools.tbl")
+    tools.write_text("".join(f"T{number} P{number}\n" for number in range(1, 100)))
+    words = run("rs274", "-t", tools, "-g", program, home=program.parent)
+    return re.findall(r"^ *\d+ N\.*\d* +([A-Z].*)$", words, re.MULTILINE)
 
 
 def page_mm(pdf: Path, box: str = "MediaBox") -> tuple[float, float, float, float]:

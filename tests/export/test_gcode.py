@@ -192,8 +192,8 @@ def test_without_comments_it_does_not() -> None:
 
 def test_what_reaches_beyond_the_machine_is_refused_with_numbers() -> None:
     bench = r'the machine \("bench"\) reaches'
-    with pytest.raises(UnsupportedByFormatError, match=rf"x runs from 1 to 39 mm, and {bench} from 0 to 30 mm: "
-                       r"it is 38 mm long, expected 30 mm at most"):  # fmt: skip
+    words = rf"x runs from 1 to 39 mm, and {bench} from 0 to 30 mm: it is 38 mm long, expected 30 mm at most"
+    with pytest.raises(UnsupportedByFormatError, match=words):
         written(sample(), size=(30, 40))
     with pytest.raises(ExportError, match=rf"y runs from -9 to .* mm, and {bench} from 0 to 40 mm: "
                        r"expected an offset 9 mm larger in y"):  # fmt: skip

@@ -73,7 +73,7 @@ def test_lines_are_trimmed() -> None:
 
 def test_names_are_filled() -> None:
     gcode = Gcode(s_down=90, s_up=0.5, travel_feed=3000, temperature=80, dwell_up=0.125, dwell_down=1 / 3)
-    told = {"feed": 1200.0, "tool": 2, "ink": "indigo (2); M2", "width": 0.4}
+    told: dict[str, float | str] = {"feed": 1200.0, "tool": 2, "ink": "indigo (2); M2", "width": 0.4}
     words = " ".join(f"{name}={{{name}}}" for name in NAMES)
     assert gcode.filled(words, told).split(" ", 8)[0] == "feed=1200"
     assert gcode.filled(words, told) == (
