@@ -24,7 +24,7 @@ LEAST = PARTS
 """What a change has to save: a grid step."""
 ROUNDS = 40
 """Rounds of weighing at most."""
-WORTH = 1 / 300
+WORTH = 1 / 150
 """The share of the way that a round has to save, or none follows."""
 MOST_MOVED = 50_000
 """Ends that one change may move: turning round half of a long order costs more than it saves."""
