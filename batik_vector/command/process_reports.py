@@ -9,6 +9,9 @@ from batik_vector.units import format_mm
 
 Facts = Mapping[str, Any]
 
+TOLD_MM = 0.05
+"""What is left out is told of in words from here on: shorter stretches are no more than the grid's."""
+
 
 def told_of(facts: Facts) -> Iterator[str]:
     """Yield in lines what the processes that a file went through have to report."""
@@ -23,14 +26,14 @@ def _plot(facts: Facts) -> Iterator[str]:
         for each in facts["pens"]:
             yield f"pen {each['pen']}, {each['ink']}: {_work(each)}"
     doubled = facts["doubled"]
-    if doubled["places"]:
-        first = doubled["places"][0]
-        x, y = first["at_mm"]
+    if doubled["saved_mm"] >= TOLD_MM:
+        longest = doubled["places"][0]
+        x, y = longest["at_mm"]
         yield (
             f"{_counted(doubled['stretches'], 'stretch', 'stretches')} drawn already left out, "
-            f"{metres(doubled['saved_mm'])}; the first at {x:.3f}, {y:.3f} mm ({first['ink']})"
+            f"{metres(doubled['saved_mm'])}; the longest at {x:.3f}, {y:.3f} mm ({longest['ink']})"
         )
-    if facts.get("hidden_mm"):
+    if facts.get("hidden_mm", 0.0) >= TOLD_MM:
         yield f"{metres(facts['hidden_mm'])} hidden under higher inks left out"
 
 

@@ -35,7 +35,7 @@ Layers: TypeAlias = list[tuple[Plate, Outlines, Outlines]]
 """Each layer of a page with its areas and its lines."""
 
 PLACES = 10
-"""Places at which strokes were doubled that are told of."""
+"""Places at which strokes were doubled that are told of, those of the longest stretches."""
 
 
 def apply(page: Page, spec: PlotProcess, machine: Machine) -> Prepared:
@@ -102,7 +102,7 @@ def _seen(tools: Sequence[Tool], layers: Layers, margin: int) -> tuple[list[Tool
 
 def _once(tools: Sequence[Tool], among: Once) -> tuple[list[Tool], dict[str, Any]]:
     """Return tools that draw nothing twice, and what is told of what they would have."""
-    if among is Once.INK:
+    if among is Once.INK and tools:
         found = [once(tool.strokes)[::2] for tool in tools]
         left, doubled = [strokes for strokes, _ in found], [each for _, each in found]
         inks = [tool.ink.name for tool, each in zip(tools, doubled, strict=True) for _ in each.places]
@@ -113,13 +113,18 @@ def _once(tools: Sequence[Tool], among: Once) -> tuple[list[Tool], dict[str, Any
         left = [_some(strokes, first, stop) for first, stop in pairwise([0, *cuts.tolist()])]
         doubled = [all_doubled]
         inks = [tools[k].ink.name for k in np.searchsorted(ends, all_doubled.source, "right").tolist()]
-    places = [place for each in doubled for place in each.places.tolist()]
+    places = np.concatenate([each.places for each in doubled])
+    lengths = np.concatenate([each.lengths for each in doubled])
     facts = {
         "stretches": len(places),
-        "saved_mm": _mm(sum(each.length for each in doubled)),
+        "saved_mm": _mm(int(lengths.sum())),
         "places": [
-            {"at_mm": [x / STEPS_PER_MM, y / STEPS_PER_MM], "ink": ink}
-            for (x, y), ink in zip(places[:PLACES], inks, strict=False)
+            {
+                "at_mm": [x / STEPS_PER_MM for x in places[k].tolist()],
+                "ink": inks[k],
+                "mm": _mm(int(lengths[k])),
+            }
+            for k in np.argsort(-lengths, kind="stable")[:PLACES].tolist()
         ],
     }
     return [replace(tool, strokes=strokes) for tool, strokes in zip(tools, left, strict=True)], facts

@@ -52,10 +52,17 @@ def test_a_stretch_that_inks_share_is_drawn_by_both_unless_asked_otherwise() -> 
     assert drawn_mm(shared) == {"wax": 160.0, "blue": 20.0}
     told = shared.facts["plot"]["doubled"]
     assert (told["stretches"], told["saved_mm"]) == (2, 20.0)
-    assert {(tuple(each["at_mm"]), each["ink"]) for each in told["places"]} == {
-        ((30.0, 15.0), "blue"),
-        ((40.0, 15.0), "blue"),
+    assert {(tuple(each["at_mm"]), each["ink"], each["mm"]) for each in told["places"]} == {
+        ((30.0, 15.0), "blue", 10.0),
+        ((40.0, 15.0), "blue", 10.0),
     }
+
+
+def test_places_that_are_told_are_those_of_the_longest_stretches() -> None:
+    lines = [shapely.LineString([(10, 2 + k), (11 + k, 2 + k)]) for k in range(20)]
+    told = PlotProcess().apply(page(layer("a", *lines, *lines)), PLAIN).facts["plot"]["doubled"]
+    assert told["stretches"] == 20
+    assert [each["mm"] for each in told["places"]] == [20.0 - k for k in range(10)]
 
 
 def test_the_pen_that_draws_first_keeps_what_is_shared() -> None:
@@ -119,6 +126,12 @@ def test_strokes_that_meet_are_one_unless_told() -> None:
     lines = [shapely.LineString([(10, 10 * k), (10, 10 * k + 10)]) for k in range(1, 6)]
     assert len(PlotProcess().apply(page(layer("a", *lines)), PLAIN).tools[0].strokes) == 1
     assert len(PlotProcess(join=False).apply(page(layer("a", *lines)), PLAIN).tools[0].strokes) == 5
+
+
+def test_a_bare_page_takes_no_time() -> None:
+    for bare in (page(), page(layer("a"))):
+        facts = PlotProcess(hidden="remove").apply(bare, PLAIN).facts["plot"]  # type: ignore[arg-type]
+        assert (facts["strokes"], facts["seconds"], facts["doubled"]["places"]) == (0, 0.0, [])
 
 
 def test_outlines_along_the_page_are_drawn_when_asked() -> None:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from batik_vector.geometry.outlines import Index, Offsets, Outlines, Steps
-from batik_vector.processes.ordering.distances import distances
+from batik_vector.processes.ordering.distances import Distances, distances
 from batik_vector.processes.plotting.pieces import Pieces
 from batik_vector.processes.plotting.touching import numbered, pairs, touching
 from batik_vector.values import frozen
@@ -25,13 +25,18 @@ REACH = 1
 class Doubled:
     """What had been drawn before: a stretch for each piece of a stroke that was left out.
 
-    ``places`` has shape (k, 2): the middle of each stretch's first piece, in steps. ``source`` are the
-    numbers of the strokes that they are left out of. ``length`` is that of all together, in parts of a step.
+    ``places`` has shape (k, 2): the middle of each stretch's first piece, in steps. ``lengths`` are those of
+    the stretches, in parts of a step, and ``source`` the numbers of the strokes that they are left out of.
     """
 
     places: Steps
+    lengths: Distances
     source: Index
-    length: int
+
+    @property
+    def length(self) -> int:
+        """That of all together, in parts of a step."""
+        return int(self.lengths.sum())
 
 
 @frozen(eq=False)
@@ -103,4 +108,6 @@ def _doubled(pieces: _Numbered, places: Steps) -> Doubled:
     start, end, stroke = pieces.start[gone], pieces.end[gone], pieces.stroke[gone]
     fresh = np.append(True, (np.diff(gone) != 1) | (np.diff(stroke) != 0))[: len(gone)]
     middle = (places[start[fresh]] + places[end[fresh]]) // 2
-    return Doubled(middle, stroke[fresh], int(distances(places[start], places[end]).sum()))
+    lengths = np.zeros(len(middle), np.int64)
+    np.add.at(lengths, np.cumsum(fresh) - 1, distances(places[start], places[end]))
+    return Doubled(middle, lengths, stroke[fresh])
