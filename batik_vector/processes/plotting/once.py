@@ -108,6 +108,6 @@ def _doubled(pieces: _Numbered, places: Steps) -> Doubled:
     start, end, stroke = pieces.start[gone], pieces.end[gone], pieces.stroke[gone]
     fresh = np.append(True, (np.diff(gone) != 1) | (np.diff(stroke) != 0))[: len(gone)]
     middle = (places[start[fresh]] + places[end[fresh]]) // 2
-    lengths = np.zeros(len(middle), np.int64)
-    np.add.at(lengths, np.cumsum(fresh) - 1, distances(places[start], places[end]))
+    each = distances(places[start], places[end])
+    lengths = np.asarray(np.bincount(np.cumsum(fresh) - 1, each, len(middle)), float)
     return Doubled(middle, lengths, stroke[fresh])
