@@ -37,6 +37,31 @@ def _plot(facts: Facts) -> Iterator[str]:
         yield f"{metres(facts['hidden_mm'])} hidden under higher inks left out"
 
 
+def _cut(facts: Facts) -> Iterator[str]:
+    for each in facts["tools"]:
+        yield f"{each['tool']}: {_cuts(each)}"
+        if each.get("shared_edges"):
+            yield f"{metres(each['shared_mm'])} that two parts share, cut once"
+        if each.get("left_uncut_mm2"):
+            yield f"{each['left_uncut_mm2']:,.2f} mm² of corners and gaps too narrow for the kerf stay uncut"
+        if "sheets" in each:
+            yield (
+                f"{_counted(each['pieces'], 'piece', 'pieces')} on {format_mm(each['height_used_mm'])} mm of the "
+                f"sheet, {each['covered']:.0%} of it covered, one of {each['sheets']}"
+            )
+
+
+def _cuts(facts: Facts) -> str:
+    if not facts["contours"]:
+        return "nothing is left to cut"
+    contours = _counted(facts["contours"], "contour", "contours")
+    tabs = f", {_counted(facts['tabs'], 'tab', 'tabs')}" if facts["tabs"] else ""
+    return (
+        f"{contours}{tabs}, {metres(facts['cut_mm'])} cut, {metres(facts['travel_mm'])} between them, "
+        f"about {duration(facts['seconds'])}"
+    )
+
+
 def _work(facts: Facts) -> str:
     if not facts["strokes"]:
         return "nothing is left to draw"
@@ -69,5 +94,5 @@ def duration(seconds: float) -> str:
     return f"{minutes} min {whole % 60} s" if minutes else f"{whole} s"
 
 
-_TOLD: dict[str, Callable[[Facts], Iterator[str]]] = {"plot": _plot}
+_TOLD: dict[str, Callable[[Facts], Iterator[str]]] = {"plot": _plot, "cut": _cut}
 """What tells of each process, by its kind."""

@@ -16,6 +16,7 @@ from batik_vector.processes.cutting.strokes import cut_out
 from batik_vector.processes.cutting.told import Told, told
 from batik_vector.processes.cutting.weeding import Box
 from batik_vector.processes.options import CutProcess
+from batik_vector.processes.plotting.timing import Pace, taken
 from batik_vector.processes.prepared import Prepared, Tool
 
 REGISTRATION = "registration"
@@ -30,12 +31,15 @@ def apply(page: Page, spec: CutProcess, machine: Machine) -> Prepared:
         ExportError: where the page is too large.
     """
     asked = told(spec, machine, page.tolerance)
+    motion = machine.motion
+    pace = Pace(motion.draw_speed, motion.travel_speed, motion.acceleration, motion.lift)
     tools, facts = list[Tool](), list[dict[str, Any]]()
     for stock in stocks_of(page, asked):
         laid, sheet = nested(stock, asked)
         strokes, found = cut_out(laid, asked)
         tools.append(Tool(stock.ink, strokes))
-        facts.append({"tool": stock.ink.name, **found, **sheet})
+        seconds = round(taken(strokes, pace).seconds, 1)
+        facts.append({"tool": stock.ink.name, **found, "seconds": seconds, **sheet})
     sheeted = _sheeted(page, asked)
     if asked.registration is not None:
         tools.append(_registration(sheeted.cell, asked))

@@ -16,8 +16,10 @@ from batik_vector.processes.cutting.choices import Lines
 from batik_vector.processes.cutting.overlays import on_grid, united
 from batik_vector.units import STEPS_PER_MM
 
-SAG = 1.0
+SAG = 0.5
 """Steps by which chords about the ends of lines may lie within their arcs."""
+LEAST = 16
+"""Chords of a quarter of such an arc, at least: fine lines would lose some of their breadth."""
 
 
 def regions_of(areas: Outlines, strokes: Outlines, ink: Ink, lines: Lines) -> tuple[Geometries, int]:
@@ -49,7 +51,7 @@ def regions_of(areas: Outlines, strokes: Outlines, ink: Ink, lines: Lines) -> tu
 
 def _chords(radius: float) -> int:
     """Return into how many chords a quarter of a circle is divided."""
-    return max(4, math.ceil(round(math.pi / 4 / math.acos(max(1 - SAG / radius, 0.5)), 6)))
+    return max(LEAST, math.ceil(round(math.pi / 4 / math.acos(max(1 - SAG / radius, 0.5)), 6)))
 
 
 def _outlined(strokes: Outlines, ink: str) -> Geometries:

@@ -97,8 +97,8 @@ def nested(stock: Stock, told: Told) -> tuple[Stock, dict[str, Any]]:
 
 def _covered(regions: Geometries) -> float:
     left, low, right, high = shapely.total_bounds(regions).tolist()
-    covered: float = shapely.area(regions).sum() / ((right - left) * (high - low))
-    return covered
+    around: float = (right - left) * (high - low)
+    return float(shapely.area(regions).sum()) / around
 
 
 def _room(stock: Stock, gap: int) -> str:

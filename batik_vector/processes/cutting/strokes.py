@@ -17,13 +17,14 @@ from batik_vector.processes.cutting.choices import Keep, Narrow
 from batik_vector.processes.cutting.faults import check_blade, check_kerf, check_tabs
 from batik_vector.processes.cutting.kerf import compensated
 from batik_vector.processes.cutting.knife import Knife, holder, shut
+from batik_vector.processes.cutting.sequence import in_sequence
 from batik_vector.processes.cutting.shared import lengthened
 from batik_vector.processes.cutting.starts import begun
 from batik_vector.processes.cutting.stock import Stock
 from batik_vector.processes.cutting.tabs import tabbed
 from batik_vector.processes.cutting.told import Told
 from batik_vector.processes.cutting.weeding import bounds, weed_lines
-from batik_vector.processes.order import in_order, travel
+from batik_vector.processes.order import travel
 from batik_vector.processes.ordering.distances import PARTS
 from batik_vector.units import STEPS_PER_MM
 
@@ -44,7 +45,7 @@ def cut_out(stock: Stock, told: Told) -> tuple[Outlines, dict[str, Any]]:
     contours = _contours(stock, told)
     if not len(contours):
         return contours, {"contours": 0}
-    strokes = begun(in_order(_with_weeding(contours, stock.regions, told)), told.start, told.corner)
+    strokes = begun(in_sequence(_with_weeding(contours, stock.regions, told)), told.start, told.corner)
     facts = _facts(strokes, stock)
     if told.kerf and told.keep is Keep.INK:
         facts["left_uncut_mm2"] = _left_uncut(stock.regions, told.kerf)

@@ -15,19 +15,22 @@ from batik_vector.recipe.loading import read_recipe
 from tests.random_recipes import recipe_text
 
 SIDE = 120.0
+MOST = 3000
+"""Vertices of a recipe's page up to which it is cut: what a test's own checks cost grows faster."""
 
 
 def design(number: int) -> Artwork | None:
-    """Return a design, always the same; None where its recipe leaves nothing to cut or is refused.
+    """Return a design, always the same; None where a recipe is refused, leaves nothing, or takes long to cut.
 
     Two of three are recipes, the others shapes in shapes.
     """
     if number % 3 == 2:
         return nested(number)
     try:
-        return compile_recipe(read_recipe(recipe_text(number)))
+        page = compile_recipe(read_recipe(recipe_text(number)))
     except RecipeError:
         return None
+    return page if 0 < page.vertex_count <= MOST else None
 
 
 def artwork(*layers: list[shapely.Polygon], width: float = 0.8) -> Artwork:
