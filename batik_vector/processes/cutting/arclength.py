@@ -30,7 +30,7 @@ def following(strokes: Outlines) -> Index:
 
 def reached(strokes: Outlines) -> Ways:
     """Return the way to each point through all before it, and at last that through all: n + 1 numbers."""
-    steps = distances(strokes.points, strokes.points[following(strokes)])
+    steps = distances(strokes.points, strokes.points[following(strokes)]).astype(np.int64)
     return np.concatenate([np.zeros(1, np.int64), np.cumsum(steps)])
 
 

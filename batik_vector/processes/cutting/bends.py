@@ -12,10 +12,6 @@ from batik_vector.geometry.outlines import Outlines, Steps
 from batik_vector.processes.cutting.arclength import turn
 from batik_vector.values import frozen
 
-COARSEST = math.pi / 3
-"""A sharper turn is a corner, however short the sides are that meet there."""
-ALIKE = 1.5
-"""How many times more one of two points that follow one another on a curve may turn than the other."""
 FULL = 1 << 20
 """Length in steps of a direction that is told as an angle."""
 
@@ -32,30 +28,19 @@ class Bends:
     angles: NDArray[np.float64]
     begins: NDArray[np.bool_]
 
-    def curved(self, corner: float, sag: float) -> NDArray[np.bool_]:
+    def curved(self, corner: float, sag: float, radius: float) -> NDArray[np.bool_]:
         """Return which points stand for a curve.
 
         Args:
-            corner: from how many radians on a bend is a corner, if no bend beside it is like it.
+            corner: from how many radians on a bend is a corner.
             sag: how far a curve may be from the sides that stand for it, in steps.
+            radius: of the narrowest curve, in steps.
         """
-        near = np.round(self._sags(), 3) <= sag
-        return near & ~self.begins & ((np.abs(self.angles) < corner) | self._coarse())
-
-    def _sags(self) -> NDArray[np.float64]:
-        """Return how far the sides at each point stray from arcs that turn with them, in steps."""
         side = np.sqrt(np.asarray(self.out[:, 0] * self.out[:, 0] + self.out[:, 1] * self.out[:, 1], float))
-        return np.asarray(np.maximum(side, np.roll(side, 1)) / 2 * np.tan(np.abs(self.angles) / 4))
-
-    def _coarse(self) -> NDArray[np.bool_]:
-        """Return which points are those of a coarse curve: the one before or behind turns about as much."""
-        one, two = self.angles[:-1], self.angles[1:]
-        least, most = np.minimum(one, two), np.maximum(one, two)
-        alike = np.where(least > 0, most <= ALIKE * least, (most < 0) & (least >= ALIKE * most))
-        found = np.zeros(len(self.angles), bool)
-        found[1:] |= alike
-        found[:-1] |= alike
-        return found & (np.abs(self.angles) < COARSEST)
+        other, bent = np.roll(side, 1), np.abs(self.angles)
+        near = np.round(np.maximum(side, other) / 2 * np.tan(bent / 4), 3) <= sag
+        near &= np.minimum(side, other) >= np.round(radius * bent, 3)
+        return np.asarray(near & ~self.begins & (bent < corner))
 
 
 def bends_of(strokes: Outlines, heading: float) -> Bends:

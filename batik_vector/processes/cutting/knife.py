@@ -18,8 +18,10 @@ from batik_vector.processes.cutting.arclength import Ways, along, around
 from batik_vector.processes.cutting.bends import Bends, bends_of, halved
 from batik_vector.values import frozen
 
-CHORD = 2.0
+CHORD = 0.5
 """Steps by which a swivel's chords may lie within its arc: the tip is moved by no more."""
+BROAD = 2.0
+"""Offsets: the radius of a curve on which the holder need not swivel from side to side."""
 SWAY = 1.0
 """Steps that the holder may be out of line at a bend that gets one point and no swivel."""
 
@@ -65,7 +67,7 @@ def holder(strokes: Outlines, knife: Knife) -> Outlines:
     """
     if not len(strokes) or not knife.offset:
         return strokes
-    curved = bends_of(strokes, knife.heading).curved(knife.corner, knife.sag)
+    curved = bends_of(strokes, knife.heading).curved(knife.corner, knife.sag, BROAD * knife.offset)
     strokes, curved = halved(strokes, curved)
     bends = bends_of(strokes, knife.heading)
     counts = _counts(bends, curved, knife)
@@ -80,12 +82,11 @@ def holder(strokes: Outlines, knife: Knife) -> Outlines:
 def _counts(bends: Bends, curved: NDArray[np.bool_], knife: Knife) -> Index:
     """Return how many places the holder passes at each point.
 
-    On a curve it is one, at a bend between straight sides two, and more on the arc of a swivel.
+    On a curve it is one, and at a corner two or more, on the arc of a swivel.
     """
     bent = np.abs(bends.angles)
-    swivelled = (bent >= knife.corner) | bends.begins
     widest = 2 * math.acos(max(1 - CHORD / knife.offset, 0.0))
-    counts = np.where(swivelled, np.ceil(np.round(bent / widest, 6)), 1).astype(np.intp) + 1
+    counts = np.ceil(np.round(bent / widest, 6)).astype(np.intp) + 1
     straight = knife.offset * np.sin(np.minimum(bent, math.pi / 2) / 2) <= SWAY
     counts[straight | curved] = 1
     return np.asarray(counts, np.intp)

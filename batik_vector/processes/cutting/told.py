@@ -17,7 +17,9 @@ OVERCUT = 1.0
 """How far in mm a drag knife cuts past its start, unless told: the usual value of vinyl cutters (SkyCut)."""
 PRECUT = 2.0
 """How long in mm the cut is that turns a drag knife into its first direction, unless told."""
-SAG = 2.0
+SAG = 0.025
+"""How far in mm a drag knife may cut beside coarse sides to follow the curve that they stand for."""
+LOOSE = 2.0
 """Tolerances by which sides may stray from a curve and still stand for it: they may be unevenly spaced."""
 QUARTERS = {Turns.NONE: (0,), Turns.HALF: (0, 2), Turns.QUARTER: (0, 1, 2, 3)}
 
@@ -74,7 +76,7 @@ def told(spec: CutProcess, machine: Machine, tolerance: float) -> Told:
         kerf=_steps(_first(spec.kerf, machine.tool.kerf, 0.0)),
         blade_offset=_steps(blade),
         corner=math.radians(spec.corner),
-        sag=SAG * tolerance * STEPS_PER_MM,
+        sag=min(SAG, LOOSE * tolerance) * STEPS_PER_MM,
         swivel=math.radians(spec.swivel),
         precut=_steps(_first(spec.precut, PRECUT if blade else 0.0)),
         overcut=_first(spec.overcut, OVERCUT if blade else 0.0),
