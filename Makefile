@@ -26,7 +26,7 @@ demo: $(READY) ## compile samples/four-square.toml to SVG, PDF, DXF and PNG in o
 test: $(TOOLS_READY) ## run the tests
 	$(PY) -m pytest $(WORKERS) -rs
 
-test-clients: $(TOOLS_READY) $(CLIENTS_READY) ## open the files in Inkscape, LibreCAD, LinuxCNC, vpype, Chromium, poppler, mupdf, Ghostscript, qpdf
+test-clients: $(TOOLS_READY) $(CLIENTS_READY) ## open the files in Inkscape, LibreCAD, LinuxCNC, vpype, hp2xx, Chromium, poppler, mupdf, Ghostscript, qpdf
 	$(PY) -m pytest $(WORKERS) -rs -m clients
 
 test-long: $(TOOLS_READY) ## run the random tests with many more examples

@@ -4,7 +4,7 @@
 #   tools/setup.sh python     an environment with this package, and cairo
 #   tools/setup.sh tools      into the same, what tests and checks it
 #   tools/setup.sh peers      .venv-bench with what the benchmarks measure us against
-#   tools/setup.sh clients    the real programs that tests/clients opens files in, vpype in .venv-vpype
+#   tools/setup.sh clients    the real programs that tests/clients opens files in, vpype and readers of HPGL in .venv-vpype
 #   tools/setup.sh bare       what makes a bare system
 #
 # PYTHON is the interpreter, VENV the folder of the environment; with LOWEST=1 it gets the oldest versions that
@@ -170,7 +170,7 @@ clients_ready() {
         ! command -v $name >/dev/null || browser=$name:chromium
     done
     programs_ready inkscape:inkscape librecad:librecad qpdf:qpdf pdftocairo:poppler-utils mutool:mupdf-tools \
-        gs:ghostscript $browser
+        gs:ghostscript hp2xx:hp2xx $browser
     # An interpreter of G-code; not every distribution has it.
     (programs_ready rs274:linuxcnc-uspace) || say "LinuxCNC cannot be installed: its tests will say so"
     # Inkscape's writers of other formats are Python, and take the system's.
@@ -180,6 +180,7 @@ clients_ready() {
     python_known
     environment "$plotting"
     step "installing vpype into $plotting (pip)" pip_install "$plotting" --constraint benchmarks/requirements.txt vpype
+    step "installing readers of HPGL into $plotting (pip)" pip_install "$plotting" ezhpgl==0.1.0a2 hpgl-buddy==1.8.0
     rm -f "$plotting/.unfinished"
 }
 

@@ -145,7 +145,7 @@ def compile_command(
 ) -> None:
     """Compile recipes to files.
 
-    A RECIPE is a TOML file, an SVG, PDF, DXF or PNG that was compiled from one, or library:NAME; "*" stands
+    A RECIPE is a TOML file, an SVG, PDF, DXF, HPGL or PNG compiled from one, or library:NAME; "*" stands
     for any name. The files of a recipe are written all or not at all, as DIR/NAME.SUFFIX, but for PNGs where
     the system lacks what draws them.
     """

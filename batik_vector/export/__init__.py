@@ -26,11 +26,14 @@ from batik_vector.export.options import (
     DxfOptions,
     DxfVersion,
     GcodeOptions,
+    HpglOptions,
+    Pages,
     PdfInks,
     PdfOptions,
     PngOptions,
     Profile,
     SvgOptions,
+    Turn,
 )
 from batik_vector.fields import Instead, given
 from batik_vector.values import frozen
@@ -45,11 +48,14 @@ __all__ = [
     "DxfVersion",
     "Format",
     "GcodeOptions",
+    "HpglOptions",
+    "Pages",
     "PdfInks",
     "PdfOptions",
     "PngOptions",
     "Profile",
     "SvgOptions",
+    "Turn",
     "format_of",
     "render",
     "write_all_whole",
@@ -90,6 +96,19 @@ class Format:
         """Write the page as a file of this format, piece by piece."""
         import_module(self.module).write(page, sink, options)
 
+    def divides(self, options: Any) -> bool:
+        """Return whether a page may be divided over several files."""
+        return getattr(options, "pages", None) is Pages.TILE and getattr(options, "sheet", None) is None
+
+    def parts(self, page: Page, options: Any) -> list[tuple[str, dict[str, Any]]]:
+        """Return the files that a page is divided over, none where it need not be.
+
+        Returns:
+            What is added to the name of each, and which options are its own.
+        """
+        parts: list[tuple[str, dict[str, Any]]] = import_module(self.module).parts(page, options)
+        return parts
+
 
 FORMATS: Mapping[str, Format] = MappingProxyType(
     {
@@ -98,6 +117,9 @@ FORMATS: Mapping[str, Format] = MappingProxyType(
         ),
         "pdf": Format(".pdf", PdfOptions, "1:1 pages with trim, bleed and layers", "batik_vector.export.pdf"),
         "dxf": Format(".dxf", DxfOptions, "closed polylines for cutters and CAD", "batik_vector.export.dxf"),
+        "hpgl": Format(
+            ".hpgl", HpglOptions, "strokes for pen plotters and vinyl cutters", "batik_vector.export.hpgl"
+        ),
         "gcode": Format(
             ".gcode", GcodeOptions, "strokes in the words of a machine", "batik_vector.export.gcode"
         ),

@@ -7,6 +7,7 @@ from dataclasses import field
 from typing import Annotated
 
 from batik_vector.fields import HIDDEN, Between, Length, Says, check
+from batik_vector.machines.hpgl import Hpgl, Origin
 from batik_vector.machines.profile import Machine
 from batik_vector.values import frozen
 
@@ -54,6 +55,29 @@ class Zero(enum.StrEnum):
     """Its lower left corner."""
     CENTRE = "centre"
     """Its middle."""
+
+
+class Pages(enum.StrEnum):
+    """What becomes of a drawing that is larger than the page."""
+
+    ONE = "one"
+    """It is refused."""
+    TILE = "tile"
+    """It is divided over several pages that overlap, each a file of its own, with crosses to lay them by."""
+
+
+class Turn(enum.StrEnum):
+    """How a drawing lies on the page."""
+
+    AUTO = "auto"
+    """As it is, or a quarter to the left where it fits only so."""
+    NONE = "none"
+    LEFT = "left"
+    """A quarter turn anticlockwise."""
+    OVER = "over"
+    """Upside down."""
+    RIGHT = "right"
+    """A quarter turn clockwise."""
 
 
 @frozen
@@ -151,6 +175,55 @@ class PngOptions:
 
     dpi: Annotated[float, Between(1, 2400), Says("pixels per inch of cloth")] = 100.0
     cloth: Annotated[bool, Says("paint the cloth; without it the ground is transparent")] = True
+
+    def __post_init__(self) -> None:
+        check(self)
+
+
+@frozen
+class HpglOptions:
+    """Options of HPGL."""
+
+    page: Annotated[
+        str, Says('a sheet of the machine, or its size as "420 x 297 mm"; if unset the first that fits')
+    ] = ""
+    pages: Annotated[Pages, Says("a drawing larger than the page is refused (one) or divided (tile)")] = (
+        Pages.ONE
+    )
+    overlap: Annotated[
+        Annotated[Length, Between(0, 1000)], Says("how far the pages of a divided drawing overlap")
+    ] = 10.0
+    sheet: Annotated[
+        tuple[Annotated[int, Between(1, 9999)], Annotated[int, Between(1, 9999)]] | None,
+        Says("column and row of the one page of a divided drawing that is written; all of them if unset"),
+    ] = None
+    turn: Annotated[
+        Turn, Says("quarter turns of the drawing: none, left, over, right, or as it fits (auto)")
+    ] = Turn.AUTO
+    place: Annotated[
+        Origin | None,
+        Says("where the drawing lies: corner or centre; where the machine counts from if unset"),
+    ] = None
+    margin: Annotated[
+        Annotated[Length, Between(0, 1000)],
+        Says("room that is left around the drawing, as for what is cut outside it"),
+    ] = 0.0
+    pens: Annotated[
+        tuple[Annotated[int, Between(0, 64)], ...],
+        Says("the pen of each ink, lowest ink first; 0 leaves an ink out; 1, 2, 3 … if unset"),
+    ] = ()
+    encoded: Annotated[bool, Says("write PE, half as long, where the machine understands it")] = False
+    speed: Annotated[
+        Annotated[float, Between(0.1, 10_000)] | None, Says("speed with the pen down in mm/s (VS)")
+    ] = None
+    force: Annotated[
+        Annotated[int, Between(1, 1000)] | None, Says("force of the pen, as the machine counts it (FS)")
+    ] = None
+    comment: Annotated[bool, Says("carry the recipe, as comments (CO) that old machines do not know")] = False
+    order: Annotated[bool, Says("order contours for a tool: inside before outside, short ways between")] = (
+        True
+    )
+    device: Hpgl = field(default=Hpgl(), metadata={HIDDEN: True})
 
     def __post_init__(self) -> None:
         check(self)

@@ -28,6 +28,7 @@ from batik_vector.export.palette import xml_safe
 NAMESPACE = "urn:x-batik-vector:provenance"
 BASE64 = "-base64"
 DXF_MARK = "BATIK_VECTOR PROVENANCE 1"
+HPGL_MARK = b'CO"BATIK_VECTOR '
 PNG_KEYWORD = b"batik_vector"
 MAX_FILE = 1 << 30
 MAX_RECIPE = 16 << 20
@@ -36,6 +37,8 @@ DXF_CHUNK = 240
 """Characters in one DXF string; AutoCAD allows 255."""
 GCODE_CHUNK = 68
 """Characters in one comment of G-code: grbl's lines have room for 80, and senders count them in."""
+HEAD = 4096
+"""Bytes of an HPGL file within which its comments begin."""
 
 
 class _FoundError(Exception):
@@ -74,8 +77,15 @@ def ascii_chunks(provenance: Provenance, longest: int = DXF_CHUNK) -> list[str]:
     return [DXF_MARK, *(line[at : at + longest] for at in range(0, len(line), longest))]
 
 
+def hpgl_comments(provenance: Provenance) -> bytes:
+    """Return a provenance as comments of HP-GL/2, one to a line."""
+    line = base64.b64encode(ascii_line(provenance).encode("ascii"))
+    chunks = (line[at : at + DXF_CHUNK] for at in range(0, len(line), DXF_CHUNK))
+    return b"".join(b'%b%b";\n' % (HPGL_MARK, chunk) for chunk in chunks)
+
+
 def read_provenance(path: str | Path) -> Provenance:
-    """Return the recipe, seed and version that an SVG, PDF, DXF, PNG or G-code of ours carries.
+    """Return the recipe, seed and version that an SVG, PDF, DXF, PNG, HPGL or G-code of ours carries.
 
     Raises:
         RecipeError: where the file cannot be read, or carries none.
@@ -94,9 +104,12 @@ def read_provenance(path: str | Path) -> Provenance:
             raise
         raise _fault(path, str(error)) from error
     if found is None:
-        raise _fault(
-            path, "carries no recipe: it is no file of this program, or another program saved it since"
+        where = (
+            "HPGL does where comment = true asked for it"
+            if path.suffix.lower() == ".hpgl"
+            else "it is no file of this program, or another program saved it since"
         )
+        raise _fault(path, f"carries no recipe: {where}")
     return found
 
 
@@ -111,6 +124,8 @@ def _read(data: bytes) -> Provenance | None:
         return _from_png(data)
     if data[:200].lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<"):
         return _from_xml(data)
+    if HPGL_MARK in data[:HEAD]:
+        return _from_hpgl(data)
     return _from_text(data)
 
 
@@ -248,8 +263,21 @@ def _from_text(data: bytes) -> Provenance | None:
     lines = data[at : at + 2 * MAX_RECIPE].splitlines()
     comment = data[:at].rstrip(b" ")[-1:]
     chunks = _in_comments(lines[1:], comment) if comment in (b";", b"(") else _in_pairs(lines[1:])
+    return _from_base64(b"".join(chunks))
+
+
+def _from_hpgl(data: bytes) -> Provenance:
+    chunks = []
+    for line in data[data.find(HPGL_MARK) :][: 2 * MAX_RECIPE].splitlines():
+        if not line.startswith(HPGL_MARK):
+            break
+        chunks.append(line.removeprefix(HPGL_MARK).removesuffix(b'";'))
+    return _from_base64(b"".join(chunks))
+
+
+def _from_base64(data: bytes) -> Provenance:
     try:
-        line = base64.b64decode(b"".join(chunks), validate=True).decode("ascii")
+        line = base64.b64decode(data, validate=True).decode("ascii")
     except (binascii.Error, UnicodeDecodeError):
         raise ValueError("its provenance is damaged") from None
     return _from_line(line)

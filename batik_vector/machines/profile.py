@@ -6,11 +6,12 @@ then takes its own default, and an audit does not measure it.
 
 from __future__ import annotations
 
-from dataclasses import field
+from dataclasses import field, replace
 from typing import Annotated
 
 from batik_vector.fields import Between, Length, Says, check
 from batik_vector.machines.gcode import Gcode
+from batik_vector.machines.hpgl import Hpgl, sheet_of
 from batik_vector.machines.limits import Limits
 from batik_vector.values import frozen
 
@@ -59,6 +60,7 @@ class Machine:
     motion: Annotated[Motion, Says("how fast it moves")] = field(default_factory=Motion)
     limits: Annotated[Limits, Says("what it can still draw")] = field(default_factory=Limits)
     gcode: Annotated[Gcode, Says("how it is spoken to in G-code")] = field(default_factory=Gcode)
+    hpgl: Annotated[Hpgl, Says("how it is spoken to in HP-GL")] = field(default_factory=Hpgl)
     sources: Annotated[dict[str, str], Says("where the numbers come from, by their keys")] = field(
         default_factory=dict
     )
@@ -67,3 +69,10 @@ class Machine:
 
     def __post_init__(self) -> None:
         check(self)
+
+    @property
+    def hpgl_device(self) -> Hpgl:
+        """What HP-GL is written for: where no sheet is named, one as large as the machine reaches."""
+        if self.size is None or self.hpgl.page:
+            return self.hpgl
+        return replace(self.hpgl, page=(sheet_of("all that it reaches", self.size, self.hpgl),))

@@ -14,10 +14,18 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 
 from batik_vector.artwork import Artwork, Page
 from batik_vector.compiling.compiler import compile_cloth, compile_recipe
-from batik_vector.errors import ExportError, Fault, GeometryError, MissingLibraryError, RecipeError, SeamError
+from batik_vector.errors import (
+    ExportError,
+    Fault,
+    GeometryError,
+    MissingLibraryError,
+    RecipeError,
+    SeamError,
+    UnsupportedByFormatError,
+)
 from batik_vector.export import FORMATS, write_all_whole
 from batik_vector.making.facts import facts_of, page_warnings, warnings
-from batik_vector.making.pages import drawings_of, piece_of, render_output, size_of
+from batik_vector.making.pages import Part, divided, drawings_of, piece_of, render_output, size_of
 from batik_vector.recipe.loading import load_recipe, located
 from batik_vector.recipe.model import OutputSpec, Recipe
 from batik_vector.recipe.outputs import OUTPUTS, Piece
@@ -210,6 +218,10 @@ def _on_behalf(job: Job, key: str = "") -> Iterator[None]:
         yield
     except SeamError as error:
         raise SeamError(f"{job.source}: {error}") from error
+    except UnsupportedByFormatError as error:
+        if not key:
+            raise
+        raise located(RecipeError([Fault(str(error), key)]), job.source, job.recipe.source) from error
     except GeometryError as error:
         raise located(RecipeError([Fault(str(error), key)]), job.source, job.recipe.source) from error
     except RecipeError as error:
@@ -252,7 +264,11 @@ def run(job: Job, tell: Callable[[str], None], look: Callable[[Page], None] | No
     for path, output in job.files:
         page: Page | None = cloth if piece_of(recipe, output) == Piece.YARDAGE else tile
         if page is not None:
-            writers.append((path, _writer(job, path, output, page, tell, reports)))
+            with _on_behalf(job, key := _key_of(job, output)):
+                parts = divided(page, output)
+            for part in parts:
+                place = path.with_name(f"{path.stem}{part.ending}{path.suffix}")
+                writers.append((place, _writer(job, place, key, part, size_of(page, output), tell, reports)))
             notes += page_warnings(path, output, page)
     _write(writers)
     return {
@@ -272,8 +288,9 @@ def run_quietly(job: Job) -> dict[str, Any]:
 def _writer(
     job: Job,
     path: Path,
-    output: OutputSpec,
-    page: Page,
+    key: str,
+    part: Part,
+    size: list[float],
     tell: Callable[[str], None],
     reports: list[dict[str, Any]],
 ) -> Callable[[BinaryIO], None]:
@@ -282,16 +299,18 @@ def _writer(
     def write(sink: BinaryIO) -> None:
         begun = time.perf_counter()
         tell(f"writing {path.name}")
-        with _on_behalf(job, _key_of(job, output)):
-            facts = render_output(page, output, sink)
+        with _on_behalf(job, key):
+            facts = render_output(part.page, part.output, sink)
+        if part.facts is not None:
+            facts = part.facts
         reports.append(
             {
                 "path": str(path),
-                "format": output.format,
+                "format": part.output.format,
                 "bytes": sink.tell(),
-                "size_mm": size_of(page, output),
+                "size_mm": size,
                 "seconds": round(time.perf_counter() - begun, 3),
-                **({"process": facts} if output.process else {}),
+                **({"process": facts} if part.output.process or part.facts is not None else {}),
             }
         )
 

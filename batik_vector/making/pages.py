@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 from batik_vector.artwork import Artwork, Page
 from batik_vector.errors import Fault, GeometryError, RecipeError
-from batik_vector.export import write_page
+from batik_vector.export import FORMATS, write_page
 from batik_vector.machines.profile import Machine
 from batik_vector.recipe.drawing import Svg
 from batik_vector.recipe.model import OutputSpec, Recipe
 from batik_vector.recipe.outputs import Piece
 from batik_vector.units import STEPS_PER_MM
+from batik_vector.values import frozen
 
 if TYPE_CHECKING:
     from batik_vector.importing.drawing.marks import Drawing
@@ -31,6 +33,35 @@ def drawings_of(recipe: Recipe) -> Iterator[tuple[str, Drawing]]:
             yield name, motif.drawing
 
 
+@frozen(eq=False)
+class Part:
+    """One of the files of an output: what goes into it, and what its name ends with.
+
+    ``facts`` are what processes have had to report, where the page has been through them.
+    """
+
+    page: Page
+    output: OutputSpec
+    ending: str = ""
+    facts: Mapping[str, Any] | None = None
+
+
+def divided(page: Page, output: OutputSpec) -> list[Part]:
+    """Return the files of an output: one, unless its format divides what is too large for it.
+
+    What is divided goes through its processes first, once for all parts.
+    """
+    kind = FORMATS[output.format]
+    if not kind.divides(output.options):
+        return [Part(page, output)]
+    page, facts = _finished(page, output)
+    done, told = replace(output, process=()), facts if output.process else None
+    parts = kind.parts(page, output.options)
+    if not parts:
+        return [Part(page, done, facts=told)]
+    return [Part(page, replace(done, **own), f"-{name}", told) for name, own in parts]
+
+
 def render_output(page: Page, output: OutputSpec, sink: BinaryIO) -> Mapping[str, Any]:
     """Write a file: a cloth, or the tile repeated or carried beyond its edges as the output asks.
 
@@ -39,11 +70,16 @@ def render_output(page: Page, output: OutputSpec, sink: BinaryIO) -> Mapping[str
     Returns:
         What the processes that it went through have to report.
     """
-    if isinstance(page, Artwork):
-        page = _set_out(page, getattr(output, "repeat", (1, 1)), getattr(output, "bleed", 0.0))
-    page, facts = prepared(page, output)
+    page, facts = _finished(page, output)
     write_page(page, sink, output.format, output.options, check=False)
     return facts
+
+
+def _finished(page: Page, output: OutputSpec) -> tuple[Page, Mapping[str, Any]]:
+    """Return a page as an output shows it and its processes leave it, and what these have to report."""
+    if isinstance(page, Artwork):
+        page = _set_out(page, getattr(output, "repeat", (1, 1)), getattr(output, "bleed", 0.0))
+    return prepared(page, output)
 
 
 def prepared(page: Page, output: OutputSpec) -> tuple[Page, Mapping[str, Any]]:

@@ -26,7 +26,7 @@ EMPTY = 'a recipe: "batik-vector new" writes one to begin with'
 
 
 def load_recipe(path: str | os.PathLike[str], overrides: Sequence[str] = ()) -> Recipe:
-    """Read a recipe from its file, from an SVG, PDF, DXF or PNG that was compiled from it, or the library.
+    """Read a recipe from its file, from an SVG, PDF, DXF, HPGL or PNG compiled from it, or the library.
 
     Args:
         path: of the file; or ``library:NAME``, or ``library:NAME@3`` for one of its versions.

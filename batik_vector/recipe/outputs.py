@@ -4,10 +4,17 @@ from __future__ import annotations
 
 import enum
 import re
-from dataclasses import field, fields
+from dataclasses import field, fields, replace
 from typing import Annotated, Any, ClassVar, TypeAlias
 
-from batik_vector.export.options import DxfOptions, GcodeOptions, PdfOptions, PngOptions, SvgOptions
+from batik_vector.export.options import (
+    DxfOptions,
+    GcodeOptions,
+    HpglOptions,
+    PdfOptions,
+    PngOptions,
+    SvgOptions,
+)
 from batik_vector.fields import HIDDEN, Alone, Between, Length, OneOf, Says, Text, check
 from batik_vector.machines.profile import Machine
 from batik_vector.processes.options import AnyProcess
@@ -105,6 +112,22 @@ class DxfOutput(OutputSpec, DxfOptions):
 
 
 @frozen(kw_only=True)
+class HpglOutput(OutputSpec, HpglOptions):
+    """An HPGL file: strokes for pen plotters and vinyl cutters."""
+
+    format = "hpgl"
+    writer = HpglOptions
+
+    @property
+    def options(self) -> HpglOptions:
+        """The options of the format's writer, for the machine that the file is for."""
+        options: HpglOptions = OutputSpec.options.__get__(self)
+        if self.machine_profile is None:
+            return options
+        return replace(options, device=self.machine_profile.hpgl_device)
+
+
+@frozen(kw_only=True)
 class GcodeOutput(OutputSpec, GcodeOptions):
     """G-code: strokes for plotters, lasers, drag knives and wax pens that speak it."""
 
@@ -123,7 +146,7 @@ class PngOutput(OutputSpec, PngOptions):
 
 
 OUTPUTS: dict[str, type[OutputSpec]] = {
-    output.format: output for output in (SvgOutput, PdfOutput, DxfOutput, GcodeOutput, PngOutput)
+    output.format: output for output in (SvgOutput, PdfOutput, DxfOutput, HpglOutput, GcodeOutput, PngOutput)
 }
 """The catalogue of formats that a recipe may ask for."""
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import shutil
@@ -153,6 +154,50 @@ def vpype(svg: Path) -> Path:
     out = svg.with_name("vpype.svg")
     run(str(ROOT / ".venv-vpype" / "bin" / "vpype"), "read", svg, "write", out, home=svg.parent)
     return out
+
+
+Plotted = list[tuple[int, list[tuple[float, float]]]]
+"""Strokes as a program has understood them: the pen of each and its places, in units of 0.025 mm."""
+
+
+def hp2xx(hpgl: Path) -> Plotted:
+    """Return what hp2xx draws at true size, from the plain HP-GL that it makes of a file."""
+    out = hpgl.with_name("hp2xx.hpgl")
+    run("hp2xx", "-q", "-t", "-m", "hpgl", "-f", out, hpgl, home=hpgl.parent)
+    strokes: Plotted = []
+    pen, at = 0, (0.0, 0.0)
+    down = False
+    for name, rest in re.findall(r"(SP|PU|PD)([^;]*)", out.read_text()):
+        if name == "SP":
+            pen, down = int(rest), False
+            continue
+        x, y = (float(number) for number in rest.split(","))
+        if name == "PD":
+            if not down:
+                strokes.append((pen, [at]))
+            strokes[-1][1].append((x, y))
+        at, down = (x, y), name == "PD"
+    return strokes
+
+
+def ezhpgl(hpgl: Path) -> Plotted:
+    """Return what ezhpgl has read, which knows one unit alone."""
+    out = hpgl.with_suffix(".json")
+    code = "import sys, ezhpgl; ezhpgl.readfile(sys.argv[1]).write_json(sys.argv[2])"
+    run(str(ROOT / ".venv-vpype" / "bin" / "python"), "-c", code, hpgl, out, home=hpgl.parent)
+    found = json.loads(out.read_text())
+    assert found["completeness"] == "complete"
+    assert found["diagnostics"] == []
+    return [
+        (each["style"]["pen"], [(p["x"] * 40, p["y"] * 40) for p in each["geometry"]["points"]])
+        for page in found["pages"]
+        for each in page["operations"]
+    ]
+
+
+def hpgl_buddy(hpgl: Path) -> str:
+    """Return what the checker of a 7475A says of a file that it accepts."""
+    return run(str(ROOT / ".venv-vpype" / "bin" / "hpgl-buddy"), "check", hpgl, home=hpgl.parent)
 
 
 def inkscape_export(svg: Path, kind: str) -> Path:

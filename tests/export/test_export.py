@@ -19,6 +19,7 @@ from batik_vector.export import (
     DxfOptions,
     DxfVersion,
     GcodeOptions,
+    HpglOptions,
     PdfInks,
     PdfOptions,
     PngOptions,
@@ -40,6 +41,7 @@ SETTINGS: list[tuple[str, Any]] = [
     ("dxf", DxfOptions()),
     ("dxf", DxfOptions(DxfVersion.R12)),
     ("gcode", GcodeOptions(arcs=True)),
+    ("hpgl", HpglOptions()),
     ("png", PngOptions()),
 ]
 
@@ -116,7 +118,7 @@ def test_a_colour_that_is_none() -> None:
     from dataclasses import replace
 
     # Tools have no colours.
-    for format in FORMATS.keys() - {"gcode"}:
+    for format in FORMATS.keys() - {"gcode", "hpgl"}:
         with pytest.raises(ExportError, match="no colour"):
             render(replace(sample(), layers=(replace(sample().layers[0], ink=bad_ink()),)), format)
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from batik_vector.artwork import Artwork, Provenance
 from batik_vector.errors import RecipeError
-from batik_vector.export import FORMATS, DxfOptions, provenance, render, write_artwork
+from batik_vector.export import FORMATS, DxfOptions, HpglOptions, provenance, render, write_artwork
 from batik_vector.export.provenance import MAX_RECIPE, _read, read_provenance
 
 from .drawings import NASTY, empty, sample
@@ -34,8 +34,15 @@ TEXTS = {
 @pytest.mark.parametrize("name", TEXTS)
 def test_recipes_come_back_to_the_character(tmp_path: Path, format: str, name: str) -> None:
     told = Provenance(TEXTS[name], -(2**70), "1.0 <ä>")
-    path = write_artwork(sample(provenance=told), tmp_path / f"a.{format}")
+    options = HpglOptions(comment=True) if format == "hpgl" else None
+    path = write_artwork(sample(provenance=told), tmp_path / f"a.{format}", options=options)
     assert read_provenance(path) == told
+
+
+def test_hpgl_carries_a_recipe_only_where_that_is_asked_for(tmp_path: Path) -> None:
+    path = write_artwork(sample(), tmp_path / "a.hpgl")
+    with pytest.raises(RecipeError, match=r"a\.hpgl: carries no recipe: HPGL does where comment = true"):
+        read_provenance(path)
 
 
 @pytest.mark.parametrize("name", [name for name in TEXTS if name != "nasty"])

@@ -9,9 +9,10 @@ from typing import Any
 import pikepdf
 import pytest
 
-from batik_vector.errors import ExportError, RecipeError, TooLargeError
-from batik_vector.making.jobs import Job, planned, read_jobs, run
+from batik_vector.errors import RecipeError, TooLargeError
+from batik_vector.making.jobs import Job, piece_of, planned, read_jobs, run
 from batik_vector.making.pages import piece_of
+from batik_vector.processes.options import ProcessSpec
 from batik_vector.recipe.outputs import Piece
 from tests.export.readers import svg_layers
 
@@ -158,11 +159,11 @@ def test_a_cloth_too_large_is_refused_at_its_key(tmp_path: Path) -> None:
 
 def test_a_failure_while_writing_leaves_no_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (job,) = jobs(tmp_path, TILE + CLOTH + outputs('format = "svg"', 'format = "png"\ndpi = 2400'))
-    with pytest.raises(ExportError, match="pixels"):
+    with pytest.raises(RecipeError, match="pixels"):
         run(job, quiet)
     assert not (tmp_path / "out").exists()
     (tmp_path / "out").mkdir()
-    with pytest.raises(ExportError):
+    with pytest.raises(RecipeError):
         run(job, quiet)
     assert list((tmp_path / "out").iterdir()) == []
 
@@ -199,3 +200,42 @@ def test_what_is_told_while_a_cloth_is_drawn(tmp_path: Path) -> None:
 def test_stretch_is_reported(tmp_path: Path) -> None:
     text = TILE.replace('"40 mm"]', '"40 mm"]\nfit = { width = "121 mm" }')
     assert made(tmp_path, text)["stretch_percent"][0] == pytest.approx(0.833, abs=0.01)
+
+
+TILED = """
+format = "hpgl"
+machine = "hp7475a"
+pages = "tile"
+overlap = "5 mm"
+page = "30 x 30 mm"
+"""
+
+
+def test_a_drawing_too_large_becomes_a_file_for_each_sheet(tmp_path: Path) -> None:
+    report = made(tmp_path, TILE + outputs(TILED, 'format = "svg"'))
+    names = [f"dots-p{column}x{row}.hpgl" for row in (1, 2) for column in (1, 2)]
+    assert [Path(each["path"]).name for each in report["files"]] == [*names, "dots.svg"]
+    assert {path.name for path in (tmp_path / "out").iterdir()} == {*names, "dots.svg"}
+
+
+def test_what_is_divided_goes_through_its_processes_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    calls = []
+    apply = ProcessSpec.apply
+
+    def counted(self: ProcessSpec, *of: Any) -> Any:
+        calls.append(self)
+        return apply(self, *of)
+
+    monkeypatch.setattr(ProcessSpec, "apply", counted)
+    report = made(tmp_path, TILE + outputs(TILED + 'process = { kind = "plot" }\n'))
+    assert len(calls) == 1
+    assert ["process" in each for each in report["files"]] == [True] * 4
+
+
+def test_a_drawing_too_large_for_its_machine_is_refused_with_its_place(tmp_path: Path) -> None:
+    words = r'dots.toml:12: output\[0\]: the drawing is 40 x 40 mm, .*pages = "tile"'
+    with pytest.raises(RecipeError, match=words):
+        made(tmp_path, TILE + outputs('format = "hpgl"\npage = "30 x 30 mm"'))
+    assert not (tmp_path / "out").exists()
