@@ -10,7 +10,7 @@ import pikepdf
 import pytest
 
 from batik_vector.errors import RecipeError, TooLargeError
-from batik_vector.making.jobs import Job, piece_of, planned, read_jobs, run
+from batik_vector.making.jobs import Job, planned, read_jobs, run
 from batik_vector.making.pages import piece_of
 from batik_vector.processes.options import ProcessSpec
 from batik_vector.recipe.outputs import Piece
