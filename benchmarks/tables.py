@@ -152,7 +152,7 @@ def order(contests: Sequence[Contest], results: Results) -> Iterator[str]:
 def hatch(contests: Sequence[Contest], results: Results) -> Iterator[str]:
     """Yield what it takes to fill areas with strokes, and how many and how long these are."""
     (contest,) = contests
-    yield "`efill` (parallel, vpype-embroidery) goes up to the edge and along it again and again: each mark is"
+    yield "`efill` (parallel, vpype-embroidery) goes up to the edge and along it again and again: a mark is"
     yield "one stroke; `cfill` (concentric, vpype-cfill) begins with the edge. batik_vector keeps the ink"
     yield "inside, but in the second row."
     yield ""

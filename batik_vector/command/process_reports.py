@@ -33,6 +33,8 @@ def _plot(facts: Facts) -> Iterator[str]:
             f"{_counted(doubled['stretches'], 'stretch', 'stretches')} drawn already left out, "
             f"{metres(doubled['saved_mm'])}; the longest at {x:.3f}, {y:.3f} mm ({longest['ink']})"
         )
+    if facts.get("unreached_mm2"):
+        yield f"{facts['unreached_mm2']:,} mm² are too narrow for the pen and stay white"
     if facts.get("hidden_mm", 0.0) >= TOLD_MM:
         yield f"{metres(facts['hidden_mm'])} hidden under higher inks left out"
 

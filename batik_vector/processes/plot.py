@@ -19,7 +19,7 @@ from batik_vector.artwork import Artwork, Ink, Overlap, Page, Plate
 from batik_vector.errors import GeometryError, unknown_name
 from batik_vector.geometry.outlines import Outlines, nothing, together
 from batik_vector.machines import Machine, Motion
-from batik_vector.processes.hatching.filling import hatched
+from batik_vector.processes.hatching.filling import hatched, unreached
 from batik_vector.processes.options import Hidden, Once, PlotProcess
 from batik_vector.processes.order import contours, ordered
 from batik_vector.processes.ordering.distances import PARTS
@@ -50,6 +50,8 @@ def apply(page: Page, spec: PlotProcess, machine: Machine) -> Prepared:
         for (plate, areas, lines), pen in zip(layers, _pens(layers, spec.pens), strict=True)
     ]
     facts: dict[str, Any] = {}
+    if spec.hatch:
+        facts["unreached_mm2"] = _unreached(layers, spec, machine)
     if spec.hidden is Hidden.REMOVE:
         tools, facts["hidden_mm"] = _seen(tools, layers, round(spec.margin * STEPS_PER_MM))
     # Guides come last; inks that share a pen stay in the order of painting.
@@ -85,6 +87,19 @@ def _strokes(
         repeats = isinstance(page, Artwork) and not bleed
         outlines = without_edges(outlines, box, cell.lattice if repeats else None)
     return together([outlines, *contours([lines])])
+
+
+def _unreached(layers: Layers, spec: PlotProcess, machine: Machine) -> float:
+    """Return how many mm² of areas are too narrow for the pens that fill them."""
+    assert spec.hatch
+    return round(
+        math.fsum(
+            unreached(areas, spec.hatch, _width(plate.ink, spec, machine))
+            for plate, areas, _ in layers
+            if not plate.guide
+        ),
+        1,
+    )
 
 
 def _seen(tools: Sequence[Tool], layers: Layers, margin: int) -> tuple[list[Tool], float]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import shapely
 
 from batik_vector.geometry.outlines import MM, Index, Outlines, nothing, together
 from batik_vector.processes.hatching.crossings import Lines
@@ -57,6 +58,25 @@ def hatched(areas: Outlines, spec: Hatch, pen: float) -> Outlines:
     strokes = together([each for each, _ in drawn])
     marks = np.concatenate([of for _, of in drawn])
     return strokes.taken(np.argsort(marks, kind="stable"))
+
+
+def unreached(areas: Outlines, spec: Hatch, pen: float) -> float:
+    """Return how much of areas, in mm², a round pen that stays inside cannot paint: necks, ends of corners.
+
+    Areas that are too narrow as a whole count only where their edge is not drawn either.
+
+    Args:
+        areas: closed rings.
+        spec: how they are filled.
+        pen: the pen's width in mm.
+    """
+    areas = _sound(areas)
+    inset = (pen / 2 if spec.inset is None else spec.inset) * MM
+    whole = Regions.of(areas)
+    inner, _ = whole.drawn_in(inset)
+    asked = whole.taken(np.unique(inner.marks)) if spec.thin else whole
+    reached = shapely.area(shapely.buffer(inner.polygons, inset)).sum()
+    return max(float(shapely.area(asked.polygons).sum() - reached), 0.0) / MM**2
 
 
 def _sound(areas: Outlines) -> Outlines:

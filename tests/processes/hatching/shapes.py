@@ -18,7 +18,7 @@ def areas(draw: st.DrawFn, most: int = 3, mm: float = 14.0) -> NDArray[np.object
     found = []
     for number in range(draw(st.integers(1, most))):
         shape = shapely.transform(draw(polygons()), lambda points: np.rint(points * mm * 1000))
-        shape = shapely.affinity.translate(shape, number * 4 * mm * 1000 - 700)
+        shape = shapely.affinity.translate(shape, number * 9 * mm * 1000 - 700)
         if shape.is_valid and shape.geom_type == "Polygon":
             found.append(shape)
     return np.array(found, dtype=object)

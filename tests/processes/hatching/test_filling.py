@@ -7,9 +7,11 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
+from batik_vector.artwork import Artwork, Cell, Ink, Layer
 from batik_vector.errors import ExportError, RecipeError
 from batik_vector.geometry.outlines import Outlines, nothing, of_polygons
-from batik_vector.processes.hatching.filling import hatched
+from batik_vector.machines import Machine
+from batik_vector.processes.hatching.filling import hatched, unreached
 from batik_vector.processes.hatching.options import (
     HATCHES,
     ConcentricHatch,
@@ -18,6 +20,7 @@ from batik_vector.processes.hatching.options import (
     ParallelHatch,
     SpiralHatch,
 )
+from batik_vector.processes.options import PlotProcess
 from tests.thorough import examples, long
 
 from .shapes import areas, inked, lines, outlines, unpainted
@@ -190,3 +193,30 @@ def test_widths_of_nothing_are_refused(key: str, value: float) -> None:
 def test_nothing_is_drawn_twice(kind: str, shape: shapely.Polygon) -> None:
     strokes = lines(hatched(outlines(shape), HATCHES[kind](), 0.7))
     assert shapely.length(shapely.union_all(strokes)) == pytest.approx(shapely.length(strokes).sum(), abs=1)
+
+
+def test_what_the_pen_cannot_reach_is_told() -> None:
+    # Each corner keeps what a square has more than the quarter of a circle, and the neck all of it.
+    corners = 4 * (1 - np.pi / 4) * 0.5**2
+    box = shapely.box(0, 0, 10, 10)
+    assert unreached(outlines(box), ParallelHatch(), 1.0) == pytest.approx(corners, rel=0.05)
+    neck = shapely.union_all([box, shapely.box(20, 0, 30, 10), shapely.box(9, 5, 21, 5.6)])
+    assert unreached(outlines(neck), ParallelHatch(), 1.0) == pytest.approx(6 + 2 * corners, rel=0.01)
+    bar = outlines(shapely.box(0, 0, 10, 0.6))
+    assert unreached(bar, ParallelHatch(), 1.0) == 0
+    assert unreached(bar, ParallelHatch(thin=False), 1.0) == pytest.approx(6)
+    assert unreached(nothing(), SpiralHatch(), 1.0) == 0
+
+
+def test_a_plot_fills_areas_and_keeps_lines() -> None:
+    ink = Ink("wax", "#123456", 0.8)
+    areas = np.array([shapely.box(10, 10, 30, 30)], dtype=object)
+    line = np.array([shapely.LineString([(40, 10), (40, 30)])], dtype=object)
+    page = Artwork("Square", Cell(50_000, 40_000), (Layer(ink, areas, line),))
+    done = PlotProcess(hatch=ParallelHatch(angle=0), width=0.5).apply(page, Machine())
+    strokes = done.tools[0].strokes
+    assert sorted(strokes.closed.tolist()) == [False, False, True]
+    edge = lines(strokes)[strokes.closed][0]
+    assert edge.bounds == (10_250, 10_250, 29_750, 29_750)
+    assert done.facts["plot"]["drawn_mm"] == pytest.approx(20 + 78 + 39 * 19.375 + 38 * 0.5, abs=0.05)
+    assert "hatch.kind=parallel" in done.done[0]
