@@ -25,6 +25,10 @@ class Doubles:
     begin: Floats
     end: Floats
 
+    def only(self, which: Mask) -> Doubles:
+        """Return some of them."""
+        return Doubles(self.again[which], self.first[which], self.begin[which], self.end[which])
+
 
 def doubles(begin: Floats, end: Floats) -> Doubles:
     """Return what edges (whole steps, shape (n, 2)) draw again of what others drew.

@@ -11,7 +11,7 @@ import shapely
 
 from batik_vector.artwork import Artwork, Layer, Overlap, RawArtwork
 from batik_vector.audit.contours import Borders, Contours, contours
-from batik_vector.certificate.drawing import Edges, Frame, drawing
+from batik_vector.certificate.drawing import Edges, Frame, InkDrawing, drawing
 from batik_vector.geometry.outlines import MM, Outlines, nothing, of_polygons, of_polylines, together
 from batik_vector.units import STEPS_PER_MM
 from batik_vector.values import frozen
@@ -19,11 +19,15 @@ from batik_vector.values import frozen
 
 @frozen(eq=False)
 class DrawnInk:
-    """One ink on a page: its contours, and the breadth in mm of its lines."""
+    """One ink on a page: its contours, and the breadth in mm of its lines.
+
+    ``strokes`` is what a page shows whose lines may lie off the grid.
+    """
 
     name: str
     width: float
     contours: Contours
+    strokes: InkDrawing | None = None
 
 
 def drawn(artwork: Artwork, cuts: bool = False) -> tuple[Frame, list[DrawnInk]]:
@@ -59,7 +63,7 @@ def _joined(artwork: Artwork, cuts: bool) -> tuple[Frame, list[DrawnInk]]:
         own = _borders(artwork, ink.ink.name, frame.per_mm // STEPS_PER_MM)
         body = 0.0 if cuts else ink.ink.width
         joined = contours(areas, _polylines(ink.strokes), body, frame, own)
-        inks.append(DrawnInk(ink.ink.name, ink.ink.width, joined))
+        inks.append(DrawnInk(ink.ink.name, ink.ink.width, joined, None if frame.exact else ink))
     return frame, inks
 
 

@@ -6,7 +6,7 @@ from batik_vector.audit.contours import Contours, Floats
 from batik_vector.audit.drawn import DrawnInk
 from batik_vector.audit.report import Finding, Kind
 from batik_vector.audit.thin import enclosed
-from batik_vector.certificate.drawing import Frame
+from batik_vector.certificate.drawing import Frame, InkDrawing
 from batik_vector.values import frozen
 
 STRAY = 0.1
@@ -18,6 +18,7 @@ class MeasuredInk:
     """An ink on the page: per contour the ``area`` that it encloses and its ``length``, in steps.
 
     ``ends`` is where the edge of each point ends, ``stray`` how far (mm) edges stray from true curves.
+    ``strokes`` as in :class:`DrawnInk`.
     """
 
     name: str
@@ -28,6 +29,7 @@ class MeasuredInk:
     length: Floats
     frame: Frame
     stray: float
+    strokes: InkDrawing | None
 
     def least(self, limit: float | None) -> float:
         """Return a limit (mm) in steps, less what is let pass because edges stray; 0 where there is none."""
@@ -44,4 +46,4 @@ def measured(ink: DrawnInk, frame: Frame, stray: float) -> MeasuredInk:
     """Return an ink with what its contours enclose."""
     ends = ink.contours.ends()
     area, length = enclosed(ink.contours, ends)
-    return MeasuredInk(ink.name, ink.width, ink.contours, ends, area, length, frame, stray)
+    return MeasuredInk(ink.name, ink.width, ink.contours, ends, area, length, frame, stray, ink.strokes)

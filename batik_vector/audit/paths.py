@@ -10,6 +10,9 @@ from batik_vector.audit.doubles import Doubles, doubles
 from batik_vector.audit.measured import MeasuredInk
 from batik_vector.audit.nodes import dense
 from batik_vector.audit.report import Finding, Kind, mm
+from batik_vector.certificate import Limits as SeamLimits
+from batik_vector.certificate import SeamFault
+from batik_vector.certificate.duplicates import doubled_lines, shared_lines
 from batik_vector.geometry.outlines import Index
 from batik_vector.machines import Twice
 from batik_vector.tiling.welding.weld import components
@@ -41,21 +44,42 @@ def crowded_nodes(ink: MeasuredInk, most: float) -> Iterator[Finding]:
 
 def drawn_again(inks: Sequence[MeasuredInk], twice: Twice) -> Iterator[Finding]:
     """Yield what is drawn again, by the same ink or by any."""
-    if twice == Twice.ALL and inks:
-        yield from _again(inks)
-    elif twice == Twice.INK:
-        for ink in inks:
-            yield from _again([ink])
+    if twice == Twice.NO or not inks:
+        return
+    for ink in inks:
+        if ink.strokes is not None:
+            yield from _told(doubled_lines(ink.strokes, ink.frame, NEARLY)[1])
+    if twice == Twice.ALL:
+        loose = [ink.strokes for ink in inks if ink.strokes is not None]
+        yield from _told(shared_lines(loose, inks[0].frame, NEARLY))
+    for together in [inks] if twice == Twice.ALL else [[ink] for ink in inks]:
+        yield from _again(together)
+
+
+NEARLY = SeamLimits()
+"""How near lines off the grid are one line."""
+
+
+def _told(faults: Sequence[SeamFault]) -> Iterator[Finding]:
+    for fault in faults:
+        yield Finding(Kind.DOUBLE, fault.ink, fault.where, fault.amount, None, fault.words)
 
 
 def _again(inks: Sequence[MeasuredInk]) -> Iterator[Finding]:
-    """Yield a finding for each stretch that two paths share."""
+    """Yield a finding for each stretch that two paths share to the grid step.
+
+    Of lines off the grid, one beside the other, is told elsewhere.
+    """
     counts = np.cumsum([0, *(len(ink.contours) for ink in inks)])
     path = np.concatenate(
         [ink.contours.of_point + first for ink, first in zip(inks, counts[:-1], strict=True)]
     )
     begin = np.concatenate([ink.contours.points for ink in inks])
     found = doubles(begin, np.concatenate([ink.ends for ink in inks]))
+    loose = np.concatenate(
+        [~ink.contours.outline if ink.strokes is not None else ink.contours.outline & False for ink in inks]
+    )
+    found = found.only(~(loose[path[found.again]] & loose[path[found.first]]))
     if not len(found.again):
         return
     length = np.hypot(*(found.end - found.begin).T) / inks[0].frame.per_mm
