@@ -311,6 +311,15 @@ def hatch(plan: Plan) -> list[Contest]:
     return [Contest("hatch", (*mine, *peers), min(plan.rounds, 3))]
 
 
+def audit(plan: Plan) -> list[Contest]:
+    """A tile held to a machine, beside what it costs to compile it."""
+    entrants = (
+        Entrant(name, says, own("auditing", str(plan.rings), name), True)
+        for name, says in (("apart", "marks apart"), ("welded", "marks welded to a net"))
+    )
+    return [Contest("audit", tuple(entrants), plan.rounds)]
+
+
 def growth(plan: Plan) -> list[Contest]:
     """The same drawing in many sizes, stage by stage; then marks that are welded, and lines joined."""
 
@@ -525,6 +534,7 @@ SECTIONS: Mapping[str, Callable[[Plan], list[Contest]]] = MappingProxyType(
         "plotted": plotted,
         "order": order,
         "hatch": hatch,
+        "audit": audit,
         "growth": growth,
         "limits": limits,
         "start": start,

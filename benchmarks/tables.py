@@ -23,6 +23,7 @@ TITLES: Mapping[str, str] = MappingProxyType(
         "plotted": "Strokes of a plotter",
         "order": "Strokes in order",
         "hatch": "Areas hatched",
+        "audit": "Held to a machine",
         "growth": "Growth",
         "limits": "Beside the least",
         "start": "Start-up",
@@ -166,6 +167,21 @@ def hatch(contests: Sequence[Contest], results: Results) -> Iterator[str]:
         body.append((entrant.says, results.missing.get(name) or cost(results, name), *shown, *told))
     yield from table(("0.5 mm apart", "CPU", "efill takes", "cfill takes", "strokes", "drawn"), body)
     yield ""
+
+
+def audit(contests: Sequence[Contest], results: Results) -> Iterator[str]:
+    """Yield what a tile's audit costs beside its compiling."""
+    for contest in contests:
+        body = []
+        for entrant in contest.entrants:
+            name = f"{contest.name}/{entrant.name}"
+            ratio = results.ratio(f"{name}/audit", f"{name}/compile")
+            shown = NONE if ratio is None else times(ratio)
+            body.append(
+                (entrant.says, cost(results, f"{name}/compile"), cost(results, f"{name}/audit"), shown)
+            )
+        yield from table(("", "compiled and written", "audited", "ratio of CPU"), body)
+        yield ""
 
 
 def growth(contests: Sequence[Contest], results: Results) -> Iterator[str]:
@@ -366,6 +382,7 @@ SHOWN: Mapping[str, Callable[[Sequence[Contest], Results], Iterator[str]]] = Map
         "plotted": plotted,
         "order": order,
         "hatch": hatch,
+        "audit": audit,
         "growth": growth,
         "limits": limits,
         "start": start,

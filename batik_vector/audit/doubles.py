@@ -55,22 +55,40 @@ def _line(a: Ints, b: Ints) -> tuple[Ints, Ints]:
 
 def _hashes(a: Ints, b: Ints) -> NDArray[np.uint64]:
     """Return a number for each edge's line: equal lines have equal numbers, others hardly ever."""
-    way, offset = _line(a, b)
-    mixed = way[:, 0].astype(np.uint64) * np.uint64(0x9E3779B97F4A7C15)
-    mixed ^= way[:, 1].astype(np.uint64) * np.uint64(0xC2B2AE3D27D4EB4F)
-    mixed ^= offset.astype(np.uint64) * np.uint64(0x165667B19E3779F9)
+    if max(np.abs(a).max(initial=0), np.abs(b).max(initial=0)) < SMALL:
+        slope, height = _quotients(a, b)
+    else:
+        way, offset = _line(a, b)
+        slope, height = (way[:, 0] * PRIME + way[:, 1]).view(np.uint64), offset.view(np.uint64)
+    mixed = slope * np.uint64(0x9E3779B97F4A7C15)
+    mixed ^= height * np.uint64(0xC2B2AE3D27D4EB4F)
     return np.asarray(mixed ^ (mixed >> np.uint64(29)))
+
+
+PRIME = 1_000_003
+SMALL = 1 << 25
+"""Below it products of coordinates are exact in floats, and so equal fractions have equal quotients."""
+
+
+def _quotients(a: Ints, b: Ints) -> tuple[NDArray[np.uint64], NDArray[np.uint64]]:
+    """Return the bits of slope and height at zero of edges' lines; of upright ones infinite and where."""
+    step = b - a
+    upright = step[:, 0] == 0
+    run = np.where(upright, 1, step[:, 0])
+    slope = np.where(upright, np.inf, step[:, 1] / run)
+    height = np.where(upright, a[:, 0], (step[:, 0] * a[:, 1] - step[:, 1] * a[:, 0]) / run)
+    # Nought has two spellings.
+    return (slope + 0.0).view(np.uint64), (height + 0.0).view(np.uint64)
 
 
 def _shared(numbers: NDArray[np.uint64]) -> Mask:
     """Return which numbers occur more than once."""
-    order = np.argsort(numbers)
-    ordered = numbers[order]
-    same = ordered[1:] == ordered[:-1]
-    found = np.zeros(len(numbers), bool)
-    found[order[1:][same]] = True
-    found[order[:-1][same]] = True
-    return found
+    ordered = np.sort(numbers)
+    again = np.unique(ordered[1:][ordered[1:] == ordered[:-1]])
+    if not len(again):
+        return np.zeros(len(numbers), bool)
+    place = np.minimum(np.searchsorted(again, numbers), len(again) - 1)
+    return np.asarray(again[place] == numbers)
 
 
 def _along(a: Ints, b: Ints, way: Ints) -> tuple[Ints, Ints]:

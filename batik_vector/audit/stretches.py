@@ -163,8 +163,13 @@ def _translates(box: Floats, reach: float, frame: Frame) -> tuple[Index, Floats]
     first, second = (np.array(each, float) for each in frame.cell.lattice)
     numbers, moved = [np.arange(len(box))], [np.zeros((len(box), 2))]
     for way in _ways(first, second, high - low, frame):
-        there = box + np.tile(way, 2)
-        rows = np.flatnonzero((there[:, 2:] >= low).all(axis=1) & (there[:, :2] <= high).all(axis=1))
+        axis = int(np.argmax(np.abs(way)))
+        if way[axis] > 0:
+            rows = np.flatnonzero(box[:, axis] <= high[axis] - way[axis])
+        else:
+            rows = np.flatnonzero(box[:, 2 + axis] >= low[axis] - way[axis])
+        there = box[rows] + np.tile(way, 2)
+        rows = rows[(there[:, 2:] >= low).all(axis=1) & (there[:, :2] <= high).all(axis=1)]
         numbers.append(rows)
         moved.append(np.broadcast_to(way, (len(rows), 2)))
     return np.concatenate(numbers), np.concatenate(moved)
