@@ -20,7 +20,7 @@ from batik_vector.geometry.outlines import Index
 from batik_vector.tiling.welding.weld import components
 from batik_vector.values import frozen
 
-FAR = 24.0
+FAR = 100.0
 """Ways round longer than this many times the reach lead to something wider."""
 
 STEADY = 0.85

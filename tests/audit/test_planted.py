@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from fractions import Fraction
 
+import numpy as np
 import pytest
 import shapely
 from hypothesis import given, settings
@@ -145,3 +147,18 @@ def test_lines_are_as_broad_as_their_ink() -> None:
     assert (narrow.kind, narrow.value) == (Kind.LINE, 0.4)
     gap = _only(audit(tile([], lines, width=2.2), MACHINE).findings, Kind.GAP)
     assert gap.value == pytest.approx(0.3, abs=0.02)
+
+
+def _coarse(x: float, y: float, radius: float) -> shapely.Polygon:
+    """Return a disc drawn to 0.02 mm, with a vertex at the right."""
+    angles = np.arange(count := math.ceil(math.pi / math.acos(1 - 0.02 / radius))) * 2 * math.pi / count
+    return shapely.Polygon(np.round(np.column_stack([np.cos(angles), np.sin(angles)]) * radius + [x, y], 3))
+
+
+@pytest.mark.parametrize(("radius", "share"), [(10, 0.96), (12, 0.97), (14, 0.97)])
+def test_a_gap_that_runs_out_where_marks_touch_is_none_though_chords_let_it_swell(
+    radius: float, share: float
+) -> None:
+    plate = shapely.box(30, 20, 95, 80) - _coarse(60, 50, radius)
+    disc = _coarse(60 + radius - share * radius, 50, share * radius)
+    assert audit(tile([plate, disc], tolerance=0.02), MACHINE).findings == ()
