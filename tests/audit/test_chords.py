@@ -69,7 +69,8 @@ def test_a_band_round_the_torus_closes_with_a_period() -> None:
     assert shifts == pytest.approx(np.array([[WIDTH, 0], [WIDTH, 0]]))
     least = Machine(limits=Limits(narrowest_line=12.0))
     (found,) = audit(tile([shapely.box(-5, 40, WIDTH + 5, 50)]), least).findings
-    assert (found.kind, found.value) == (Kind.LINE, pytest.approx(10.0))
+    assert found.kind == Kind.LINE
+    assert found.value == pytest.approx(10.0)
 
 
 @pytest.mark.parametrize("teeth", [4, 40])

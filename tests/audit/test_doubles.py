@@ -28,7 +28,7 @@ def test_what_is_drawn_again_is_what_the_union_lacks(
     begin = np.array([at for _, at, _ in drawn], float)
     end = begin + np.array([(x * times, y * times) for (x, y), _, times in drawn], float)
     found = doubles(begin, end)
-    lines = shapely.linestrings(np.stack([begin, end], axis=1))
+    lines = [shapely.LineString(ends) for ends in np.stack([begin, end], axis=1)]
     pairs = [shapely.intersection(a, b).length for i, a in enumerate(lines) for b in lines[:i]]
     assert np.hypot(*(found.end - found.begin).T).sum() == pytest.approx(sum(pairs))
     assert (found.again > found.first).all()
@@ -45,7 +45,8 @@ def test_lines_off_the_grid_that_all_but_coincide_are_one_line(turn: float, apar
         affinity.translate(affinity.rotate(each, turn, (0, 0)), 60.12345, 50.54321) for each in (line, other)
     ]
     (found,) = audit(tile([], marks), AGAIN).findings
-    assert (found.kind, found.value) == (Kind.DOUBLE, pytest.approx(40, abs=0.1))
+    assert found.kind == Kind.DOUBLE
+    assert found.value == pytest.approx(40, abs=0.1)
     assert shapely.Point(found.where).distance(marks[0]) < 0.1
 
 
