@@ -48,8 +48,8 @@ def _cut(facts: Facts) -> Iterator[str]:
             yield f"{each['left_uncut_mm2']:,.2f} mm² of corners and gaps too narrow for the kerf stay uncut"
         if "sheets" in each:
             yield (
-                f"{_counted(each['pieces'], 'piece', 'pieces')} on {format_mm(each['height_used_mm'])} mm of the "
-                f"sheet, {each['covered']:.0%} of it covered, one of {each['sheets']}"
+                f"{_counted(each['pieces'], 'piece', 'pieces')} on {format_mm(each['height_used_mm'])} mm of "
+                f"the sheet, {each['covered']:.0%} of it covered, one of {each['sheets']}"
             )
 
 

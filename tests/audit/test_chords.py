@@ -21,7 +21,7 @@ from tests.strategies import rings
 GAP = Machine(limits=Limits(narrowest_gap=2.0))
 
 
-@settings(max_examples=40)
+@settings(max_examples=20)
 @given(rings(5.0), rings(5.0), st.floats(0, 6.283), st.floats(0.05, 1.8))
 def test_the_gap_between_two_marks_is_their_distance(
     one: np.ndarray[tuple[int, int], np.dtype[np.float64]],

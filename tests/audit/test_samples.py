@@ -69,7 +69,7 @@ discs = st.lists(st.tuples(st.floats(0, 40), st.floats(0, 40), st.floats(1.5, 6)
 LEAST = 1.5
 
 
-@settings(max_examples=60)
+@settings(max_examples=20)
 @given(discs, st.floats(0, 120), st.floats(0, 100))
 def test_what_falls_apart_when_the_knife_goes_round_has_a_neck(
     drawn: list[tuple[float, float, float]], x: float, y: float
