@@ -45,7 +45,7 @@ class ProcessSpec:
         """Return a page as the process leaves it.
 
         Raises:
-            ExportError: with the key at fault and the value that would do.
+            GeometryError: with the key at fault and the value that would do.
         """
         done: Prepared = import_module(self.module).apply(page, self.resolved(machine), machine)
         return done

@@ -41,7 +41,7 @@ def hatched(areas: Outlines, spec: Hatch, pen: float) -> Outlines:
         pen: the pen's width in mm.
 
     Raises:
-        ExportError: where the spacing asks for too many strokes.
+        GeometryError: where the spacing asks for too many strokes.
     """
     areas = _sound(areas)
     if not len(areas):

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from batik_vector.errors import ExportError
+from batik_vector.errors import GeometryError
 from batik_vector.geometry.outlines import MM, Outlines
 from batik_vector.processes.hatching.crossings import Lines
 from batik_vector.processes.hatching.directions import Direction
@@ -30,14 +30,14 @@ def check_work(areas: Outlines, spec: Hatch, spacing: float, width: float) -> No
         width: of the pen, in steps.
 
     Raises:
-        ExportError: where strokes would lie ``OVERLAID`` times over one another, or be more than
+        GeometryError: where strokes would lie ``OVERLAID`` times over one another, or be more than
             ``MOST_STROKES``; with the spacing that would do.
     """
     said = f"hatch.spacing = {format_mm(spacing / MM)} mm"
     if spec.spacing is None:
         said += ", the pen's width"
     if spacing * OVERLAID < width * (1 - 1e-9):
-        raise ExportError(
+        raise GeometryError(
             f"{said}, expected a twentieth of the pen's width of {format_mm(width / MM)} mm or more: "
             f"{_rounded_up(width / MM / OVERLAID)} mm would do"
         )
@@ -45,7 +45,7 @@ def check_work(areas: Outlines, spec: Hatch, spacing: float, width: float) -> No
     if isinstance(spec, ParallelHatch):
         count = sum(_parallel(areas, Lines(direction, spacing)) for direction in directions(spec))
     if count > MOST_STROKES:
-        raise ExportError(
+        raise GeometryError(
             f"{said}: about {count:,.0f} strokes, expected at most {MOST_STROKES:,}: "
             f"{_rounded_up(spacing / MM * count / MOST_STROKES)} mm would do"
         )

@@ -184,8 +184,8 @@ def _raised(raised: Exception, spot: _Spot) -> list[Found]:
 
 
 def field_first(words: str) -> tuple[str, str]:
-    """Return the field that a message begins with, and the rest: ``radius = 0: expected …``."""
-    begins = re.match(r"(\w+)(?: = | (?=\"))(?!\w+ = )", words)
+    """Return the field that a message begins with, dots and all, and the rest: ``radius = 0: expected …``."""
+    begins = re.match(r"(\w+(?:\.\w+)*)(?: = | (?=\"))(?!\w+ = )", words)
     return (begins[1], words[begins.end() :]) if begins else ("", words)
 
 

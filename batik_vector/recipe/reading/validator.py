@@ -60,8 +60,8 @@ def relocated(error: RecipeError, source: str, text: str, overrides: Sequence[st
     for fault in error.faults:
         path = keyed(fault.key) if not fault.source else ()
         name, rest = field_first(fault.message)
-        if path and (*path, name) in lines:
-            path = (*path, name)
+        if path and name and (*path, *name.split(".")) in lines:
+            path = (*path, *name.split("."))
             fault = Fault(rest, dotted(path))
         found.append(Found(path, fault))
     return RecipeError(placed(found, source, text, [parse_override(each) for each in overrides]))

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from batik_vector.artwork import Artwork, Cell, Ink, Layer
-from batik_vector.errors import ExportError, RecipeError
+from batik_vector.errors import GeometryError, RecipeError
 from batik_vector.geometry.outlines import Outlines, nothing, of_polygons
 from batik_vector.machines import Machine
 from batik_vector.processes.hatching.filling import hatched, unreached
@@ -176,7 +176,7 @@ def test_a_hairs_spacing_is_refused_with_what_would_do(
     spec: Hatch, pen: float, count: int, words: str
 ) -> None:
     boxes = outlines(*(shapely.box(0, 500 * k, 300, 500 * k + 400) for k in range(count)))
-    with pytest.raises(ExportError) as caught:
+    with pytest.raises(GeometryError) as caught:
         hatched(boxes, spec, pen)
     assert words in str(caught.value)
 
