@@ -85,7 +85,7 @@ class Outlines:
         """
         rings, marks = runs(self.marks, which)
         points, ends = runs(self.rings, rings)
-        moved = self.points[points]
+        moved = self.points.take(points, axis=0)
         if shift is not None:
             sizes = self.rings[self.marks[1:]] - self.rings[self.marks[:-1]]
             moved += np.repeat(shift, sizes[which], axis=0)
