@@ -40,7 +40,7 @@ def filled(
     alone = np.bincount(owner, minlength=len(evenodd))[owner] == 1
     easy = alone & valid
     parts, owners = [oriented(polygons[easy])], [owner[easy]]
-    for number in np.unique(owner[~easy]).tolist():
+    for number in dict.fromkeys(owner[~easy].tolist()):
         mine = slice(*np.searchsorted(owner, [number, number + 1]))
         found = _compound(polygons[mine], valid[mine], bool(evenodd[number]))
         parts.append(found)

@@ -99,6 +99,16 @@ def test_paths_of_many_marks_are_parted_at_the_same_places(
     assert svg.render(InPieces(crowd(), 2 * rings), options) == whole
 
 
+@pytest.mark.parametrize("points", [1, 60, 500])
+def test_however_much_is_spelled_at_once_the_file_is_the_same(
+    monkeypatch: pytest.MonkeyPatch, points: int
+) -> None:
+    whole = svg.render(crowd())
+    monkeypatch.setattr(svg, "AT_ONCE", points)
+    assert svg.render(crowd()) == whole
+    assert svg.render(InPieces(crowd(), 7)) == whole
+
+
 def test_a_polygon_in_pieces_is_one_path() -> None:
     holes = [shapely.box(x + 1, 1, x + 3, 9) for x in range(0, 90, 4)]
     comb = shapely.difference(shapely.box(0, 0, 92, 10), shapely.union_all(holes))

@@ -10,11 +10,13 @@ import numpy as np
 
 from batik_vector.errors import GeometryError
 from batik_vector.fields.fitting import shown
+from batik_vector.geometry.paths.decimals import decimals_in
 from batik_vector.geometry.paths.outline import Outline
 from batik_vector.geometry.paths.pen import Command, drawn
 from batik_vector.patterns import NUMBER, numbers_in
 
 _LETTER = re.compile("([MmZzLlHhVvCcSsQqTtAa])")
+_DECIMALS = re.compile(r"[-.,0-9 \t\r\n]*+")
 _PLAIN = re.compile(r"[-+.,eE0-9 \t\r\n]*+")
 _ARC = re.compile(
     r"[\s,]*+({0})[\s,]*+({0})[\s,]*+({0})[\s,]*+([01])[\s,]*+([01])[\s,]*+({0})[\s,]*+({0})".replace(
@@ -34,6 +36,8 @@ def parse_path(text: str) -> Outline:
     return drawn(_commands(text))
 
 
+LONG = 2000
+"""Characters from which on numbers are read all at once; fewer are sooner read one by one."""
 FARTHEST = 1e6
 """Coordinates of a curve at most: floats then tell places apart to a part in 10¹⁰ of them."""
 
@@ -90,7 +94,8 @@ def _numbers(letter: str, text: str) -> list[float]:
             at = match.end()
         read = None if text[at:].strip(" \t\r\n,") else found
     else:
-        read = _plain(text) or numbers_in(text)
+        long = len(text) >= LONG and _DECIMALS.fullmatch(text)
+        read = (decimals_in(text) if long else None) or _plain(text) or numbers_in(text)
     if read is None:
         raise ValueError(f'path data "{letter}{text[:40]}" cannot be read')
     takes = _TAKES[letter]

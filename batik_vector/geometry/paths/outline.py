@@ -77,12 +77,15 @@ class Outline:
         first = np.flatnonzero(self.kinds == MOVE)
         last = np.append(first[1:], len(self.kinds)) - 1
         first, last = first[self.closed], last[self.closed]
-        reach = max(JOINED * float(np.ptp(self.points, axis=0).max(initial=0.0)), reach)
+        side = max((float(np.ptp(column)) for column in self.points.T if len(column)), default=0.0)
+        reach = max(JOINED * side, reach)
         gap = self.points[last] - self.points[first]
         near = np.hypot(gap[:, 0], gap[:, 1]) <= reach
         points = self.points.copy()
         points[last[near]] = points[first[near]]
         apart = last[~near] + 1
+        if not len(apart):
+            return replace(self, points=points)
         kinds = np.insert(self.kinds, apart, LINE)
         return Outline(np.insert(points, apart, points[first[~near]], axis=0), kinds, self.closed)
 
@@ -101,17 +104,23 @@ def polyline(points: Points, closed: bool) -> Outline:
 
 def bounds_of(outline: Outline) -> tuple[float, float, float, float]:
     """Return how far an outline reaches: left, lower, right and upper bound in its own units."""
-    end = np.flatnonzero(outline.kinds == CURVE)
-    control = outline.points[end[:, None] + np.array([-3, -2, -1, 0])]
-    plain = outline.points[outline.kinds != CONTROL]
-    low, high = plain.min(axis=0), plain.max(axis=0)
+    (left, right), (low, high) = (_reach(outline.kinds, column) for column in outline.points.T)
+    return left, low, right, high
+
+
+def _reach(kinds: NDArray[np.uint8], at: Array) -> tuple[float, float]:
+    """Return how far an outline reaches along an axis, on which its points lie at such places."""
+    plain = at[kinds != CONTROL]
+    low, high = plain.min(), plain.max()
     # A curve reaches no further than its handles.
-    control = control[((control < low) | (control > high)).any(axis=(1, 2))]
-    for axis in (0, 1):
-        curved = control[:, :, axis]
+    beyond = np.flatnonzero((at < low) | (at > high))
+    if len(beyond):
+        # Behind a handle the end of its curve is the first point that is none.
+        last = np.where(kinds[beyond + 1] == CURVE, beyond + 1, beyond + 2)
+        curved = at[last[:, None] + np.array([-3, -2, -1, 0])]
         turns = bernstein(curved[:, None, :], turns_of(curved))
-        low[axis], high[axis] = turns.min(initial=low[axis]), turns.max(initial=high[axis])
-    return float(low[0]), float(low[1]), float(high[0]), float(high[1])
+        low, high = turns.min(initial=low), turns.max(initial=high)
+    return float(low), float(high)
 
 
 def box(x: float, y: float, width: float, height: float) -> Outline:

@@ -84,14 +84,14 @@ def _dense(outline: Outline, tolerance: float | Callable[[Points], Array]) -> tu
     """Return an outline as dense polylines, and which of their vertices have to stay."""
     kinds = outline.kinds
     end = np.flatnonzero(kinds == CURVE)
-    control = outline.points[end[:, None] + np.array([-3, -2, -1, 0])]
+    control = outline.points.take(end[:, None] + np.array([-3, -2, -1, 0]), axis=0)
     owner, at = _divided(control, _least(kinds, end), tolerance)
     # Where each node's points begin: one for a move or a line, for a curve all behind its start.
     count = np.zeros(len(kinds), np.intp)
     count[(kinds == MOVE) | (kinds == LINE)] = 1
     count[end] = np.bincount(owner, minlength=len(end))
     node = np.repeat(np.arange(len(kinds)), count)
-    points = outline.points[node]
+    points = outline.points.take(node, axis=0)
     curved = np.flatnonzero(kinds[node] == CURVE)
     whole = at == 1.0
     points[curved[~whole]] = evaluated(control[owner[~whole]], at[~whole])
@@ -146,21 +146,24 @@ def _corners(outline: Outline, control: Points, end: Indices) -> Mask:
     before = np.flatnonzero(end[1:] == end[:-1] + 3)
     if len(before):
         arriving, leaving = _tangents(control)
-        a, b = arriving[before], leaving[before + 1]
-        cross, dot = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0], (a * b).sum(axis=1)
+        (ax, ay), (bx, by) = arriving[before].T, leaving[before + 1].T
+        cross, dot = ax * by - ay * bx, ax * bx + ay * by
         corner[end[before]] = np.abs(np.arctan2(cross, dot)) > SMOOTH
     return np.asarray(corner)
 
 
 def _tangents(control: Points) -> tuple[Points, Points]:
     """Return the directions in which cubics end and begin; where a handle has no length, of the next one."""
-    out = control[:, 1:] - control[:, :1]
-    back = control[:, 3:] - control[:, 2::-1]
-    found = []
-    for way in (back, out):
-        moves = (way != 0).any(axis=2)
-        found.append(way[np.arange(len(way)), moves.argmax(axis=1)])
-    return found[0], found[1]
+    return -_first_way(control[:, 3], control[:, 2::-1]), _first_way(control[:, 0], control[:, 1:])
+
+
+def _first_way(start: Points, on: Points) -> Points:
+    """Return the ways from starts to the first of three places each that lies elsewhere."""
+    way = on[:, 0] - start
+    for further in (1, 2):
+        still = np.flatnonzero((way[:, 0] == 0) & (way[:, 1] == 0))
+        way[still] = on[still, further] - start[still]
+    return way
 
 
 def _clean(lines: Polylines, fixed: Mask) -> tuple[Polylines, Mask]:
