@@ -38,7 +38,9 @@ def moved(points: NDArray[np.float64], matrix: Matrix) -> NDArray[np.float64]:
     """Return points, shape (n, 2), under a map."""
     a, b, c, d, e, f = matrix
     x, y = points[:, 0], points[:, 1]
-    return np.column_stack([a * x + c * y + e, b * x + d * y + f])
+    found = np.empty_like(points, float)
+    found[:, 0], found[:, 1] = a * x + c * y + e, b * x + d * y + f
+    return found
 
 
 def spread(matrix: Matrix) -> tuple[float, float]:

@@ -49,7 +49,7 @@ class Outline:
 
     def moved(self, matrix: Matrix) -> Outline:
         """Return the outline under an affine map."""
-        return replace(self, points=moved(self.points, matrix))
+        return Outline(moved(self.points, matrix), self.kinds, self.closed)
 
     def at(self, t: Array) -> Points:
         """Return the points at ``t`` in [0, 1]: as much of it for each line and each cubic in turn.

@@ -20,6 +20,8 @@ from batik_vector.geometry.paths.outline import CONTROL, CURVE, EMPTY, LINE, MOV
 Command = tuple[str, list[float]]
 """A letter and its numbers, as many as it takes or a multiple."""
 
+MANY = 200
+"""Numbers from which on an array pays."""
 _CUBIC, _ALONE = bytes([CONTROL, CONTROL, CURVE]), bytes([MOVE, MOVE])
 
 
@@ -32,6 +34,9 @@ def drawn(commands: Iterable[Command]) -> Outline:
 
 
 def _pairs(numbers: list[float]) -> list[complex]:
+    if len(numbers) >= MANY:
+        paired: list[complex] = np.array(numbers).view(complex).tolist()
+        return paired
     return list(map(complex, numbers[::2], numbers[1::2]))
 
 
