@@ -94,6 +94,8 @@ BEYOND = {
         "a row too many",
         "past the limit",
         "no such machine",
+        "a margin about nothing",
+        "a pen of no breadth",
         "drop 1/0",
         "path in a name",
     ),
