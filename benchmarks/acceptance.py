@@ -5,7 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
-from benchmarks.contests import BATIK, FORMATS, SEARCHES, SLIDER_KNOBS, VPYPE_RINGS, Plan
+from benchmarks.contests.compiling import SLIDER_KNOBS
+from benchmarks.contests.designing import SEARCHES, VPYPE_RINGS
+from benchmarks.contests.entrants import BATIK
+from benchmarks.contests.plans import Plan
+from benchmarks.contests.writing import FORMATS
 from benchmarks.drawing import RING, TIMES
 from benchmarks.results import Results, Spread, exponent, over_log
 

@@ -15,7 +15,8 @@ from dataclasses import replace
 from pathlib import Path
 
 from benchmarks import machine
-from benchmarks.contests import FULL, QUICK, SECTIONS, Plan, facts
+from benchmarks.contests import SECTIONS, facts
+from benchmarks.contests.plans import FULL, QUICK, Plan
 from benchmarks.results import Results
 from benchmarks.running import find_out, folders, run
 from benchmarks.tables import page

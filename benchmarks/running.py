@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from benchmarks.contests import Contest, Entrant, Fact, own
+from benchmarks.contests.entrants import Contest, Entrant, Fact, own
 from benchmarks.results import Results
 from benchmarks.timing import ROOT, FailedError, Sample, parts, process, told
 

@@ -23,7 +23,8 @@ from batik_vector.compiling.compiler import compile_cloth, compile_recipe
 from batik_vector.export import write_artwork
 from batik_vector.recipe.loading import load_recipe, read_recipe
 from batik_vector.recipe.model import Recipe, YardageSpec
-from benchmarks.contests import FORMATS, SLIDER_KNOBS
+from benchmarks.contests.compiling import SLIDER_KNOBS
+from benchmarks.contests.writing import FORMATS
 from benchmarks.peers.drawn import Part, tell, timed
 
 SCREEN_MM = 0.3

@@ -23,7 +23,7 @@ from batik_vector.compiling.compiler import compile_recipe
 from batik_vector.export import write_artwork
 from batik_vector.recipe.loading import read_recipe
 from batik_vector.tiling.welding.duplicates import drawn_once
-from benchmarks.contests import FORMATS
+from benchmarks.contests.writing import FORMATS
 from benchmarks.drawing import OVERLAPPING_MM, RING, grid, recipe, squares_recipe
 from benchmarks.peers.drawn import WARM, Part, forget_peak, peak_kib, tell, timed
 from benchmarks.peers.squares import sides

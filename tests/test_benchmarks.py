@@ -14,7 +14,10 @@ from batik_vector import compile_recipe, read_recipe, write_artwork
 from batik_vector.library import Library
 from benchmarks import library, limits, own, plotting, readback, stages
 from benchmarks.acceptance import Row, rows
-from benchmarks.contests import BATIK, FULL, QUICK, SEARCHES, SECTIONS, Contest, Entrant, facts
+from benchmarks.contests import SECTIONS, facts
+from benchmarks.contests.designing import SEARCHES
+from benchmarks.contests.entrants import BATIK, Contest, Entrant
+from benchmarks.contests.plans import FULL, QUICK
 from benchmarks.drawing import RING, evaluated, recipe
 from benchmarks.results import Results, exponent, over_log, spread
 from benchmarks.run import BEGIN, END, README, put_into
