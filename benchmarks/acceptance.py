@@ -113,6 +113,14 @@ class Asked:
             return Row(line, asked, self.missing(name) if name in self.results.missing else NOT_RUN, None)
         return Row(line, asked, f"{key}: {value}", holds(value))
 
+    def beside(self, line: int, asked: str, own: str, other: str, key: str, most: float) -> Row:
+        """Ask that a figure of ours is at most so much, and tell the other's beside it."""
+        mine, theirs = (self.results.facts.get(name, {}).get(key) for name in (own, other))
+        if mine is None:
+            return Row(line, asked, self.missing(own), None)
+        against = self.missing(other) if theirs is None else theirs
+        return Row(line, asked, f"{key}: {mine} against {against}", mine <= most)
+
 
 def rows(results: Results, plan: Plan, said: str = "") -> list[Row]:
     """Return the rows of the acceptance list; ``said`` is what the page says by hand."""
@@ -130,6 +138,10 @@ def rows(results: Results, plan: Plan, said: str = "") -> list[Row]:
         _sweep,
         _grown,
         _plotted,
+        _order,
+        _hatch,
+        _cut,
+        _machines,
         _audit,
     )
     return [*(row for part in parts for row in part(asked, plan)), _explained(results, said)]
@@ -295,6 +307,44 @@ def _plotted(asked: Asked, plan: Plan) -> Iterator[Row]:
     segments = f"{4 * plan.plotted**2:,}"
     words = f"{segments} segments drawn once ≥ 300× faster than by vpype's `deduplicate`"
     yield asked.faster(13, words, "plotted/vpype/deduplicate", f"plotted/{BATIK}/once", 300)
+
+
+def _order(asked: Asked, plan: Plan) -> Iterator[Row]:
+    for count in plan.strokes:
+        words = f"the way with the pen up between {count:,} strokes ≤ 1.40 times the shortest tree"
+        way = f"order {count}/{BATIK} way"
+        yield asked.fact(13, words, way, "ratio", lambda ratio: isinstance(ratio, float) and ratio <= 1.40)
+        words = f"{count:,} strokes in order ≥ 20× faster than by vpype's `linesort --two-opt --passes 5`"
+        yield asked.faster(13, words, f"order {count}/5", f"order {count}/{BATIK}", 20)
+
+
+def _hatch(asked: Asked, plan: Plan) -> Iterator[Row]:
+    vertices = f"{plan.rings * RING:,}"
+    for way, own, theirs, plug_in in (
+        ("parallel, ink inside and the edge", BATIK, "efill", "vpype-embroidery's `efill`"),
+        ("parallel up to the edge", "bare", "efill", "`efill`, which draws no edge either"),
+        ("concentric", "concentric", "cfill", "vpype-cfill's `cfill`"),
+        ("spiral", "spiral", "cfill", "vpype-cfill's `cfill`, which is concentric"),
+    ):
+        words = f"areas of {vertices} vertices hatched at 0.5 mm, {way}, ≥ 10× faster than by {plug_in}"
+        yield asked.faster(13, words, f"hatch/{theirs}", f"hatch/{own}", 10)
+
+
+def _cut(asked: Asked, plan: Plan) -> Iterator[Row]:
+    for key, words, most in (
+        ("corners", "a drag knife cuts the corners of stars within 0.05 mm", 0.05),
+        ("area", "and their area within 0.1 %", 0.001),
+    ):
+        yield asked.beside(13, words, f"cut/{BATIK} off", "cut/plottool off", key, most)
+    yield asked.faster(13, "its way takes no more time than plottool's", "cut/plottool", f"cut/{BATIK}", 1)
+
+
+def _machines(asked: Asked, plan: Plan) -> Iterator[Row]:
+    for format_, words, theirs in (
+        ("hpgl", "HP-GL writer faster than vpype's", "vpype_hpgl"),
+        ("gcode", "G-code writer faster than vpype-gcode's `gwrite`", "vpype_gcode"),
+    ):
+        yield asked.faster(13, words, f"{format_} alone/{theirs}", f"{format_} alone/{BATIK}", 1)
 
 
 def _audit(asked: Asked, plan: Plan) -> Iterator[Row]:

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from benchmarks.drawing import LOBES, OVERLAPPING_MM, PITCH_MM, RING, SCALE_MM, WAVE, evaluated, grid
 from benchmarks.peers.drawn import Part, tell, timed
-from benchmarks.peers.squares import sides
+from benchmarks.peers.strokes import sides
 
 Steps: TypeAlias = NDArray[np.int32]
 Words: TypeAlias = NDArray[np.uint32]

@@ -14,7 +14,7 @@ import numpy as np
 
 from batik_vector.geometry.outlines import Outlines
 from batik_vector.processes.order import in_order, travel
-from benchmarks.peers.drawn import tell, timed
+from benchmarks.peers.drawn import often, tell
 from benchmarks.peers.strokes import spanning_tree, strokes
 
 
@@ -27,11 +27,12 @@ def outlines(count: int) -> Outlines:
 def main(count: int, way: bool) -> None:
     """Order strokes, and tell what it took or what it gave."""
     in_order(outlines(200))
-    part, found = timed(partial(in_order, outlines(count)))
     if way:
-        print(json.dumps({"ratio": travel(found) / spanning_tree(strokes(count))}))
-    else:
-        tell({"": part})
+        left = travel(in_order(outlines(count))) / spanning_tree(strokes(count))
+        print(json.dumps({"ratio": round(left, 4)}))
+        return
+    part, _ = often(partial(outlines, count), in_order)
+    tell({"": part})
 
 
 if __name__ == "__main__":

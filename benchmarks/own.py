@@ -8,19 +8,30 @@ python -m benchmarks.own read RINGS FOLDER         an SVG of curves, read
 from __future__ import annotations
 
 import sys
+from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
+from types import MappingProxyType
 
 import numpy as np
 import shapely
 
 from batik_vector.artwork import Artwork
 from batik_vector.compiling.compiler import compile_recipe
-from batik_vector.export import DxfOptions, write_artwork
+from batik_vector.export import DxfOptions, GcodeOptions, HpglOptions, write_artwork
 from batik_vector.recipe.drawing import Svg
 from batik_vector.recipe.loading import read_recipe
 from benchmarks.drawing import RING, curves_recipe, curves_svg, recipe
 from benchmarks.peers.drawn import WARM, let_go, tell, timed
+
+IN_TURN: Mapping[str, object] = MappingProxyType(
+    {
+        "dxf": DxfOptions(order=False),
+        "hpgl": HpglOptions(order=False),
+        "gcode": GcodeOptions(order=False),
+    }
+)
+"""Options of formats that bring contours into order, without doing so."""
 
 
 def compiled(rings: int) -> Artwork:
@@ -49,7 +60,7 @@ def write(rings: int, folder: Path, format_: str) -> None:
     artwork, path = compiled(rings), folder / f"own.{format_}"
     let_go()
     # To bring contours into order is no part of writing, and the peers do not.
-    options = DxfOptions(order=False) if format_ == "dxf" else None
+    options = IN_TURN.get(format_)
     part, _ = timed(partial(write_artwork, artwork, path, options=options), path)
     tell({"": part})
 

@@ -6,6 +6,7 @@ python -m benchmarks.plotting SIDE
 from __future__ import annotations
 
 import sys
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -14,8 +15,8 @@ from batik_vector.geometry.outlines import Outlines
 from batik_vector.processes.order import in_order
 from batik_vector.processes.plotting.joining import longest
 from batik_vector.processes.plotting.once import once
-from benchmarks.peers.drawn import Part, tell, timed
-from benchmarks.peers.squares import sides
+from benchmarks.peers.drawn import LEAST, Part, often, tell
+from benchmarks.peers.strokes import sides
 
 
 def outlines(count: int) -> Outlines:
@@ -29,10 +30,10 @@ def passes(count: int) -> dict[str, Part]:
     """Return what it takes to draw once, to join and to order."""
     parts: dict[str, Part] = {}
     # The second time everything is warm.
-    for size in (3, count):
-        parts["once"], (left, _, _) = timed(partial(once, outlines(size)))
-        parts["joined"], paths = timed(partial(longest, left))
-        parts["ordered"], _ = timed(partial(in_order, paths))
+    for size, least in ((3, 0.0), (count, LEAST)):
+        parts["once"], (left, _, _) = often(partial(outlines, size), once, least)
+        parts["joined"], paths = often(partial(replace, left), longest, least)
+        parts["ordered"], _ = often(partial(replace, paths), in_order, least)
     return parts
 
 

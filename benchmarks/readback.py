@@ -33,6 +33,10 @@ SVG_SHAPES = re.compile(rb'\s(?:d|points)="([^"]*)"')
 PDF_STREAMS = re.compile(rb"stream\r?\n(.*?)\r?\nendstream", re.DOTALL)
 PDF_POINTS = re.compile(rb"(" + NUMBER + rb") (" + NUMBER + rb") ([ml])\b")
 DXF_POINTS = re.compile(rb"\n *10\r?\n *(" + NUMBER + rb")\r?\n *20\r?\n *(" + NUMBER + rb")")
+HPGL_STROKES = re.compile(rb"PU([-\d,]+;PD[-\d,]+);")
+GCODE_COMMENTS = re.compile(rb";[^\n]*|\([^)\n]*\)")
+GCODE_RAPIDS = re.compile(rb"\nG0?0 (?=X)")
+GCODE_PLACES = re.compile(rb"X(" + NUMBER + rb") ?Y(" + NUMBER + rb")")
 DXF_NEXT = re.compile(rb"\n *0\r?\n")
 SECONDS = 120
 """Longer than any program takes to open a small drawing."""
@@ -48,6 +52,13 @@ def contours(path: Path) -> Iterator[NDArray[np.float64]]:
     elif path.suffix == ".pdf":
         for stream in PDF_STREAMS.findall(data):
             yield from _painted(stream)
+    elif path.suffix == ".hpgl":
+        for stroke in HPGL_STROKES.findall(data):
+            yield _points(NUMBERS.findall(stroke))
+    elif path.suffix == ".gcode":
+        # In these files every line with a place has both its words, and a rapid move begins each stroke.
+        for stroke in GCODE_RAPIDS.split(GCODE_COMMENTS.sub(b"", data)):
+            yield _points([number for pair in GCODE_PLACES.findall(stroke) for number in pair])
     else:
         for entity in data.split(b"\nLWPOLYLINE")[1:]:
             entity = DXF_NEXT.split(entity, maxsplit=1)[0]

@@ -1,6 +1,6 @@
 """The benchmark: batik_vector and its peers, in turn, on one drawing; its tables go into README.md.
 
-python -m benchmarks.run                     everything; about a quarter of an hour on two cores
+python -m benchmarks.run                     everything; about twenty minutes on two cores
 python -m benchmarks.run --quick             a smoke run of small sizes; README.md stays as it is
 python -m benchmarks.run --only svg,dxf      some sections, told on the terminal
 python -m benchmarks.run --page FILE.json    the tables of an earlier run again, into README.md

@@ -75,7 +75,7 @@ def run(contest: Contest, results: Results, places: Folders, say: Callable[[str]
     for number in range(contest.rounds):
         for entrant in contest.entrants:
             name = f"{contest.name}/{entrant.name}"
-            if name in results.missing:
+            if name in results.missing or (entrant.rounds is not None and number >= entrant.rounds):
                 continue
             say(f"{contest.name}, round {number + 1} of {contest.rounds}: {entrant.name}")
             try:

@@ -9,7 +9,6 @@ Every step is another recipe, so that no result kept from the step before can an
 
 from __future__ import annotations
 
-import statistics
 import sys
 import tempfile
 from collections.abc import Callable, Iterator, Mapping
@@ -25,7 +24,7 @@ from batik_vector.recipe.loading import load_recipe, read_recipe
 from batik_vector.recipe.model import Recipe, YardageSpec
 from benchmarks.contests.compiling import SLIDER_KNOBS
 from benchmarks.contests.writing import FORMATS
-from benchmarks.peers.drawn import Part, tell, timed
+from benchmarks.peers.drawn import Part, middle, tell, timed
 
 SCREEN_MM = 0.3
 """Tolerance at which a screen shows a tile of 320 mm without a visible corner."""
@@ -70,11 +69,6 @@ SHIFTS: Mapping[str, float] = MappingProxyType({"": 4 / 3, ", overlapping": 1.1}
 
 CLOTH = Path(__file__).resolve().parents[1] / "samples" / "chrysanthemum-line.toml"
 WIDTH_MM = 1500.0
-
-
-def middle(parts: list[Part]) -> Part:
-    """Return the medians of several runs."""
-    return {name: statistics.median(part[name] for part in parts) for name in parts[0]}
 
 
 def turned(path: str, knob: str) -> Iterator[Recipe]:

@@ -14,11 +14,14 @@ SECTIONS: Mapping[str, Callable[[Plan], list[Contest]]] = MappingProxyType(
         "svg": writing.svg,
         "pdf": writing.pdf,
         "dxf": writing.dxf,
+        "hpgl": writing.hpgl,
+        "gcode": writing.gcode,
         "three": writing.three,
         "lines": producing.lines,
         "plotted": producing.plotted,
         "order": producing.order,
         "hatch": producing.hatch,
+        "cut": producing.cut,
         "audit": producing.audit,
         "growth": compiling.growth,
         "limits": compiling.limits,
@@ -41,6 +44,7 @@ FACTS: Mapping[str, Callable[[Plan], list[Fact]]] = MappingProxyType(
         "dxf": writing.dxf_facts,
         "order": producing.order_facts,
         "hatch": producing.hatch_facts,
+        "cut": producing.cut_facts,
     }
 )
 """What is to be found out about the files of a section, once."""

@@ -20,7 +20,8 @@ class Entrant:
 
     ``inside`` says that the command times parts of its own work and prints them; otherwise its process is
     timed as a whole. ``drawn`` are the files that are read back to see that the drawing is the same.
-    ``tiny`` is the same command for four marks: what memory it needs is not the drawing's.
+    ``tiny`` is the same command for four marks: what memory it needs is not the drawing's. ``rounds`` are the
+    first rounds, in which alone it takes part, where each of them takes minutes.
     """
 
     name: str
@@ -29,6 +30,7 @@ class Entrant:
     inside: bool = False
     drawn: tuple[str, ...] = ()
     tiny: tuple[str, ...] = ()
+    rounds: int | None = None
 
 
 @dataclass(frozen=True)

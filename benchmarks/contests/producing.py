@@ -36,19 +36,21 @@ def plotted(plan: Plan) -> list[Contest]:
 
 
 MOST_TURNED = 10_000
-"""Strokes up to which vpype's 2-opt takes part: its work grows with their square."""
+"""Strokes up to which vpype's 2-opt takes part in every round: its work grows with their square."""
 
 
 def order(plan: Plan) -> list[Contest]:
     """Strokes brought into an order with little way between them."""
 
     def contest(count: int) -> Contest:
-        entrants = [
+        turned = "vpype `linesort --two-opt --passes 5`"
+        rounds = 1 if count > MOST_TURNED else None
+        entrants = (
             Entrant(BATIK, BATIK, own("ordering", str(count)), True),
             Entrant("0", "vpype `linesort`", peer("vpype_order", "0", str(count)), True),
-            Entrant("5", "vpype `linesort --two-opt --passes 5`", peer("vpype_order", "5", str(count)), True),
-        ]
-        return Contest(f"order {count}", tuple(entrants[: 3 if count <= MOST_TURNED else 2]), plan.rounds)
+            Entrant("5", turned, peer("vpype_order", "5", str(count)), True, rounds=rounds),
+        )
+        return Contest(f"order {count}", entrants, plan.rounds)
 
     return [contest(count) for count in plan.strokes]
 
@@ -69,6 +71,16 @@ def hatch(plan: Plan) -> list[Contest]:
     return [Contest("hatch", (*mine, *peers), min(plan.rounds, 3))]
 
 
+def cut(plan: Plan) -> list[Contest]:
+    """Stars cut by a drag knife."""
+    count = str(plan.rings)
+    entrants = (
+        Entrant(BATIK, BATIK, own("cutting", count), True),
+        Entrant("plottool", "plottool, `optimizeCut` and `bladeOffset`", peer("plottool_knife", count), True),
+    )
+    return [Contest("cut", entrants, plan.rounds)]
+
+
 def audit(plan: Plan) -> list[Contest]:
     """A tile held to a machine, beside what it costs to compile it."""
     entrants = (
@@ -84,12 +96,23 @@ def _once_more(contests: list[Contest], word: str) -> list[Fact]:
         Fact(f"{contest.name}/{entrant.name} {word}", (*entrant.command, word), contest.rings)
         for contest in contests
         for entrant in contest.entrants
+        # Who takes minutes is not asked a second time.
+        if entrant.rounds is None
     ]
 
 
 def order_facts(plan: Plan) -> list[Fact]:
     """What way is left with the pen up."""
     return _once_more(order(plan), "way")
+
+
+def cut_facts(plan: Plan) -> list[Fact]:
+    """How far a knife's tip is off what it was to cut."""
+    count = str(plan.few)
+    return [
+        Fact(f"cut/{BATIK} off", own("cutting", count, "off")),
+        Fact("cut/plottool off", peer("plottool_knife", count, "off")),
+    ]
 
 
 def hatch_facts(plan: Plan) -> list[Fact]:

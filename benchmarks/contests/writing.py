@@ -25,6 +25,8 @@ PEER_SCRIPTS: Mapping[str, str] = MappingProxyType(
         "matplotlib_svg": "matplotlib, `PolyCollection`, SVG",
         "matplotlib_pdf": "matplotlib, `PolyCollection`, PDF",
         "cairosvg_pdf": "cairosvg, from batik_vector's SVG",
+        "vpype_hpgl": "vpype, `write_hpgl`",
+        "vpype_gcode": "vpype-gcode, `gwrite`",
         "ezdxf_dxf": "ezdxf, `add_lwpolyline` and `saveas`",
         "three_files": "svgwrite (ready strings), cairosvg, ezdxf",
     }
@@ -91,6 +93,16 @@ def pdf(plan: Plan) -> list[Contest]:
 def dxf(plan: Plan) -> list[Contest]:
     """DXF: the writer alone."""
     return [writers("dxf", ["ezdxf_dxf"], plan)]
+
+
+def hpgl(plan: Plan) -> list[Contest]:
+    """HP-GL: the writer alone."""
+    return [writers("hpgl", ["vpype_hpgl"], plan)]
+
+
+def gcode(plan: Plan) -> list[Contest]:
+    """G-code: the writer alone."""
+    return [writers("gcode", ["vpype_gcode"], plan)]
 
 
 def three(plan: Plan) -> list[Contest]:

@@ -14,9 +14,10 @@ import contextlib
 import ctypes
 import json
 import resource
+import statistics
 import sys
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -29,8 +30,11 @@ from benchmarks.drawing import evaluated, size
 
 WARM = 4
 """Marks of the drawing that warms up."""
+LEAST = 0.2
+"""CPU seconds below which something is timed again."""
 Part: TypeAlias = dict[str, float]
 """A part of the work: ``cpu`` and ``wall`` seconds, ``mib`` beyond what was held, ``bytes``, ``vertices``."""
+Given = TypeVar("Given")
 Done = TypeVar("Done")
 
 
@@ -86,6 +90,29 @@ def timed(work: Callable[[], Done], made: Path | None = None) -> tuple[Part, Don
     cpu, wall = time.process_time() - cpu, time.perf_counter() - wall
     size = made.stat().st_size if made else 0
     return {"cpu": cpu, "wall": wall, "mib": (peak_kib() - before) / 1024, "bytes": size}, done
+
+
+def middle(parts: Sequence[Part]) -> Part:
+    """Return the medians of several runs; of memory the most, since who runs again has what it needs."""
+    medians = {name: statistics.median(part[name] for part in parts) for name in parts[0]}
+    return medians | {"mib": max(part.get("mib", 0.0) for part in parts)}
+
+
+def often(
+    given: Callable[[], Given], work: Callable[[Given], Done], least: float = LEAST
+) -> tuple[Part, Done]:
+    """Do some work again and again, since little says what is over soon; return medians, and what it made.
+
+    Args:
+        given: makes what is worked on, each time anew, so that nothing that is kept with it can answer.
+        work: what to do.
+        least: CPU seconds that are timed in all, however often that is.
+    """
+    parts: list[Part] = []
+    while not parts or sum(part["cpu"] for part in parts) < least:
+        part, done = timed(partial(work, given()))
+        parts.append(part)
+    return middle(parts), done
 
 
 def tell(parts: Mapping[str, Part]) -> None:

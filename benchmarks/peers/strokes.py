@@ -1,4 +1,7 @@
-"""Short strokes all over a square metre, in an order that helps nobody, and the least way that joins them."""
+"""Lines in an order that helps nobody: strokes all over a square metre, and the sides of squares in rows.
+
+Of the strokes also the least way that joins them.
+"""
 
 from __future__ import annotations
 
@@ -6,6 +9,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+SQUARE_MM = 5.0
 SIDE_MM = 1000.0
 LENGTH = 0.3
 """How long a stroke is, as a share of the strokes' spacing, in each of two directions, about."""
@@ -46,3 +50,20 @@ def spanning_tree(lines: NDArray[np.float64]) -> float:
             above[one] = two
             total += float(apart[edge])
     return total
+
+
+def sides(count: int, *, twice: bool) -> NDArray[np.float64]:
+    """Return the sides of count × count squares of 5 mm, shape (n, 2, 2), in mm.
+
+    Args:
+        count: squares in a row, and rows.
+        twice: draw a side that two squares share for each of them.
+    """
+    along, across = (each.ravel() for each in np.meshgrid(np.arange(count), np.arange(count + 1)))
+    level = np.stack([np.stack([along, across], axis=-1), np.stack([along + 1, across], axis=-1)], axis=1)
+    lines = np.concatenate([level, level[:, :, ::-1]])
+    if twice:
+        inner = (across > 0) & (across < count)
+        # The second square draws the side the other way.
+        lines = np.concatenate([lines, lines[np.tile(inner, 2)][:, ::-1]])
+    return np.asarray(np.random.default_rng(7).permutation(lines) * SQUARE_MM)

@@ -6,14 +6,15 @@ python -m benchmarks.peers.vpype_lines deduplicate,linemerge,linesort SIDE
 from __future__ import annotations
 
 import sys
+from copy import deepcopy
 from functools import partial
 from pathlib import Path
 
 import vpype
 import vpype_cli
 
-from benchmarks.peers.drawn import Part, tell, timed
-from benchmarks.peers.squares import sides
+from benchmarks.peers.drawn import Part, often, tell
+from benchmarks.peers.strokes import sides
 
 PX = 96 / 25.4
 
@@ -36,7 +37,7 @@ def main() -> None:
     parts: dict[str, Part] = {}
     for command in commands:
         small = vpype_cli.execute(command, small)
-        parts[command], page = timed(partial(vpype_cli.execute, command, page))
+        parts[command], page = often(partial(deepcopy, page), partial(vpype_cli.execute, command))
     tell(parts)
 
 

@@ -19,11 +19,14 @@ TITLES: Mapping[str, str] = MappingProxyType(
         "svg": "SVG",
         "pdf": "PDF",
         "dxf": "DXF",
+        "hpgl": "HP-GL",
+        "gcode": "G-code",
         "three": "Three files of one drawing",
         "lines": "Lines drawn once and joined",
         "plotted": "Strokes of a plotter",
         "order": "Strokes in order",
         "hatch": "Areas hatched",
+        "cut": "Cut by a drag knife",
         "audit": "Held to a machine",
         "growth": "Growth",
         "limits": "Beside the least",
@@ -48,11 +51,12 @@ def acceptance(results: Results, plan: Plan, said: str) -> list[str]:
 
 SHOWN: Mapping[str, Callable[[Sequence[Contest], Results], Iterator[str]]] = MappingProxyType(
     {
-        **dict.fromkeys(("svg", "pdf", "dxf", "three"), writing.races),
+        **dict.fromkeys(("svg", "pdf", "dxf", "hpgl", "gcode", "three"), writing.races),
         "lines": producing.lines,
         "plotted": producing.plotted,
         "order": producing.order,
         "hatch": producing.hatch,
+        "cut": producing.cut,
         "audit": producing.audit,
         "growth": compiling.growth,
         "limits": compiling.limits,

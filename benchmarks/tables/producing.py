@@ -78,6 +78,26 @@ def hatch(contests: Sequence[Contest], results: Results) -> Iterator[str]:
     yield ""
 
 
+def cut(contests: Sequence[Contest], results: Results) -> Iterator[str]:
+    """Yield what it takes to lead a drag knife round stars, and how far its tip is off them."""
+    (contest,) = contests
+    count = int(contest.entrants[0].command[-1])
+    yield "How far the tip is off is simulated: it trails behind its holder as a castor does."
+    yield ""
+    body = []
+    for entrant in contest.entrants:
+        name = f"{contest.name}/{entrant.name}"
+        ratio, found = results.ratio(name, f"{contest.name}/{BATIK}"), results.facts.get(f"{name} off")
+        shown = NONE if ratio is None or entrant.name == BATIK else times(ratio)
+        told = [NONE] * 3
+        if found:
+            told = [f"{found['corners']:.3f} mm", f"{found['astray']:.3f} mm", f"{found['area']:.4%}"]
+        body.append((entrant.says, results.missing.get(name) or cost(results, name), shown, *told))
+    head = ("CPU", "ratio of CPU", "off a corner", "off the outline", "off in area")
+    yield from table((f"{count:,} stars of ten corners", *head), body)
+    yield ""
+
+
 def audit(contests: Sequence[Contest], results: Results) -> Iterator[str]:
     """Yield what a tile's audit costs beside its compiling."""
     for contest in contests:
