@@ -145,9 +145,9 @@ def compile_command(
 ) -> None:
     """Compile recipes to files.
 
-    A RECIPE is a TOML file, an SVG, PDF, DXF, HPGL or PNG compiled from one, or library:NAME; "*" stands
-    for any name. The files of a recipe are written all or not at all, as DIR/NAME.SUFFIX, but for PNGs where
-    the system lacks what draws them.
+    A RECIPE is a TOML file, an SVG, PDF, DXF, HPGL, G-code or PNG compiled from one, or library:NAME; "*"
+    stands for any name. The files of a recipe are written all or not at all, as DIR/NAME.SUFFIX, but for
+    PNGs where the system lacks what draws them.
     """
     from pathlib import Path
 

@@ -44,7 +44,7 @@ def _cut(facts: Facts) -> Iterator[str]:
         yield f"{each['tool']}: {_cuts(each)}"
         if each.get("shared_edges"):
             yield f"{metres(each['shared_mm'])} that two parts share, cut once"
-        if each.get("left_uncut_mm2"):
+        if each.get("left_uncut_mm2", 0.0) >= 0.005:  # what rounds to nothing is not worth a line
             yield f"{each['left_uncut_mm2']:,.2f} mm² of corners and gaps too narrow for the kerf stay uncut"
         if "sheets" in each:
             yield (

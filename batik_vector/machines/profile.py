@@ -18,6 +18,10 @@ from batik_vector.values import frozen
 Side = Annotated[Length, Between(1, 1_000_000)]
 
 
+LANGUAGES = {"hpgl": Hpgl, "gcode": Gcode}
+"""The formats that are spoken to machines, each with its section of a profile."""
+
+
 @frozen(kw_only=True)
 class Tool:
     """What meets the material."""
@@ -69,6 +73,11 @@ class Machine:
 
     def __post_init__(self) -> None:
         check(self)
+
+    @property
+    def languages(self) -> tuple[str, ...]:
+        """The formats in which the profile says how it is spoken to; none where it says nothing of that."""
+        return tuple(name for name in LANGUAGES if getattr(self, name) != LANGUAGES[name]())
 
     @property
     def hpgl_device(self) -> Hpgl:

@@ -24,6 +24,7 @@ from batik_vector.errors import (
     UnsupportedByFormatError,
 )
 from batik_vector.export import FORMATS, write_all_whole
+from batik_vector.machines.profile import LANGUAGES
 from batik_vector.making.facts import facts_of, page_warnings, warnings
 from batik_vector.making.pages import Part, divided, drawings_of, piece_of, render_output, size_of
 from batik_vector.recipe.loading import load_recipe, located
@@ -100,14 +101,14 @@ def planned(
     for job in jobs:
         files = []
         for output in _outputs(job.recipe, formats):
-            if fault := _unmet(job, output):
+            asked, output = output, replace(output, **called) if called else output
+            if fault := _unmet(job, output, _key_of(job, asked)):
                 faults.append(fault)
                 continue
             path = folder / _file_name(job, output)
-            output = replace(output, **called) if called else output
             place = os.path.normcase(path)
             if place in taken:
-                faults.append(_twice(path, taken[place], job, output))
+                faults.append(_twice(path, taken[place], job, asked))
                 continue
             taken[place] = job
             _check_place(path, job, drawings)
@@ -139,9 +140,10 @@ def _outputs(recipe: Recipe, formats: Sequence[str]) -> Iterator[OutputSpec]:
         yield from [each for each in recipe.output if each.format == name] or [OUTPUTS[name]()]
 
 
-def _unmet(job: Job, output: OutputSpec) -> Fault | None:
-    """Return what is wrong with an output that asks for what the recipe does not have."""
+def _unmet(job: Job, output: OutputSpec, where: str) -> Fault | None:
+    """Return what is wrong with an output that asks for what its recipe or its machine does not have."""
     recipe, piece = job.recipe, piece_of(job.recipe, output)
+    spoken = output.machine_profile.languages if output.machine_profile else ()
     if piece == Piece.YARDAGE and recipe.yardage is None:
         key, words = "piece", 'asks for the yardage, and the recipe has none: expected a table "yardage"'
     elif piece == Piece.TILE and recipe.tile is None:
@@ -150,9 +152,13 @@ def _unmet(job: Job, output: OutputSpec) -> Fault | None:
         key, words = "repeat", 'repeats the tile, and the file shows the yardage: expected piece = "tile"'
     elif piece == Piece.YARDAGE and bool(getattr(output, "bleed", 0)):
         key, words = "bleed", 'is the tile\'s: expected yardage.bleed, or piece = "tile"'
+    elif spoken and output.format in LANGUAGES and output.format not in spoken:
+        key = "machine"
+        words = (
+            f'"{output.machine}" takes {" and ".join(spoken)}: expected another machine for {output.format}'
+        )
     else:
         return None
-    where = _key_of(job, output)
     fault = Fault(words, f"{where}.{key}" if where else key)
     return located(RecipeError([fault]), job.source, recipe.source).faults[0]
 
@@ -219,8 +225,6 @@ def _on_behalf(job: Job, key: str = "") -> Iterator[None]:
     except SeamError as error:
         raise SeamError(f"{job.source}: {error}") from error
     except UnsupportedByFormatError as error:
-        if not key:
-            raise
         raise located(RecipeError([Fault(str(error), key)]), job.source, job.recipe.source) from error
     except GeometryError as error:
         raise located(RecipeError([Fault(str(error), key)]), job.source, job.recipe.source) from error

@@ -10,7 +10,6 @@ import dataclasses
 import enum
 import json
 import re
-import shlex
 from dataclasses import field
 from importlib import import_module
 from typing import TYPE_CHECKING, Annotated, ClassVar, Self, TypeAlias
@@ -59,7 +58,7 @@ class ProcessSpec:
 
     def __str__(self) -> str:
         """Return the process as ``--process`` takes it, without what stands at its default."""
-        said = [shlex.quote(f"{name}={value}") for name, value in _chosen(self)]
+        said = [f"{name}={value}" for name, value in _chosen(self)]
         return " ".join([self.kind, *said])
 
 
@@ -90,7 +89,7 @@ def _spelled(value: object) -> str:
         return "[" + ",".join(map(_spelled, value)) + "]"
     if isinstance(value, dict):
         return "{" + ",".join(f"{_key(name)}={_spelled(each)}" for name, each in value.items()) + "}"
-    return str(value)
+    return json.dumps(value, ensure_ascii=False) if isinstance(value, str) else str(value)
 
 
 def _key(name: str) -> str:
@@ -225,6 +224,11 @@ class CutProcess(ProcessSpec):
     sheet_number: Annotated[
         Annotated[int, Between(1, 1000)] | None, Says("which sheet the file holds, where there are several")
     ] = None
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.sheet_number is not None and self.sheet is None:
+            raise GeometryError(f"sheet_number = {self.sheet_number}, expected the size of a sheet beside it")
 
 
 PROCESSES: dict[str, type[ProcessSpec]] = {each.kind: each for each in (PlotProcess, CutProcess)}

@@ -58,7 +58,7 @@ def test_a_plot_tells_what_it_takes_and_what_it_left_out(tmp_path: Path) -> None
     assert "pen 4, blue: nothing is left to draw" in done.stderr
     assert "change of pen" not in done.stderr
     checked = CliRunner().invoke(cli, ["check", str(tmp_path / "twice.svg")])
-    assert "went through plot once=all 'pens={blue=4}'" in checked.output
+    assert "went through plot once=all pens={blue=4}" in checked.output
     assert "differs" not in checked.output
 
 

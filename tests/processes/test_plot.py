@@ -163,7 +163,7 @@ def test_what_was_plotted_once_is_plotted_again_as_it_is() -> None:
     again = PlotProcess().apply(first, PLAIN)
     assert [tool.pen for tool in again.tools] == [1, 5]
     assert drawn_mm(again) == drawn_mm(first)
-    assert again.provenance.processes == ("plot 'pens={blue=1,wax=5}'", "plot")
+    assert again.provenance.processes == ("plot pens={blue=1,wax=5}", "plot")
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shlex
 from collections.abc import Sequence
 from typing import Annotated, Any
@@ -12,6 +13,11 @@ from batik_vector.processes.options import AnyProcess, ProcessSpec
 from batik_vector.recipe.reading.overrides import parsed_value
 from batik_vector.recipe.reading.tables import values_of
 from batik_vector.values import frozen
+
+_PIECE = re.compile(r"""[][{}]|"(?:\\.|[^"\\])*"|'[^']*'|[^][{}\s"']+""")
+"""A bracket, what stands in quotes, or what stands between these and blanks."""
+
+_BRACKETS = {"[": 1, "{": 1, "]": -1, "}": -1}
 
 
 @frozen(kw_only=True)
@@ -24,13 +30,14 @@ def read_process(text: str) -> ProcessSpec:
 
     Args:
         text: its kind, and its keys as ``KEY=VALUE`` parted by blanks; keys of a table within it with a dot.
+            Values are written as in a recipe, and need no quotes where they hold no blank.
 
     Raises:
         RecipeError: with everything that is wrong.
     """
     source = f"--process {text}"
     try:
-        kind, *said = shlex.split(text)
+        kind, *said = _words(text)
     except ValueError:
         raise RecipeError([Fault('expected a process such as "cut kerf=0.15mm"', source=source)]) from None
     table: dict[str, Any] = {"kind": kind}
@@ -56,7 +63,32 @@ def _put(table: dict[str, Any], path: list[str], value: Any, source: str) -> Non
         if not isinstance(inner, dict):
             raise RecipeError([Fault(f"{part} has a value already", ".".join(path), source)])
         table = inner
+    if path[-1] in table:
+        raise RecipeError([Fault("has a value already", ".".join(path), source)])
     table[path[-1]] = value
+
+
+def _words(text: str) -> list[str]:
+    """Return what blanks part, but for those within quotes, lists and tables; values keep their quotes.
+
+    Raises:
+        ValueError: where a quote or a bracket is not closed.
+    """
+    words: list[str] = []
+    depth = end = 0
+    for found in _PIECE.finditer(text):
+        piece, between = found[0], text[end : found.start()]
+        if between.strip():
+            raise ValueError("a quote is not closed")
+        if not words or (between and not depth):
+            words.append(piece)
+        else:
+            words[-1] += between + piece
+        depth += _BRACKETS.get(piece, 0)
+        end = found.end()
+    if depth or text[end:].strip():
+        raise ValueError("a quote or a bracket is not closed")
+    return [shlex.split(each)[0] if each[0] in "\"'" else each for each in words]
 
 
 def _without_root(fault: Fault) -> Fault:

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import json
 import os
-from dataclasses import replace
+from dataclasses import fields, replace
 from typing import Any
 
-from batik_vector.errors import Fault, RecipeError, unknown_name
+from batik_vector.errors import Fault, RecipeError, nearest, unknown_name
 from batik_vector.machines import MACHINES, Machine, shipped_text
 from batik_vector.recipe.model import Recipe
 from batik_vector.recipe.reading.beside import Kind, read_beside
@@ -90,19 +90,29 @@ def _machine(name: str, folder: str | None, carried: str | None) -> tuple[str, M
         return "", values_of(Machine, tables_of(shipped_text(name), name, EMPTY), name, shipped_text(name))
     text = decoded(read_beside(name, folder, TOML_FILE, MAX_TEXT)[0], name) if carried is None else carried
     data = tables_of(text, name, EMPTY)
-    return _spelled(data), values_of(Machine, _based(data, name), name, text)
+    return _spelled(data), values_of(Machine, _based(data, name, text), name, text)
 
 
-def _based(data: dict[str, Any], source: str) -> dict[str, Any]:
+def _based(data: dict[str, Any], source: str, text: str) -> dict[str, Any]:
     """Return a profile with what it leaves out taken from the one that it begins from."""
     if BASE not in data:
+        known = [BASE, *(each.name for each in fields(Machine))]
+        for key in data:
+            if key not in known and nearest(key, known) == BASE:
+                raise _placed(unknown_name(key, known, "key"), key, source, text)
         return data
     base = data[BASE]
     if base not in MACHINES:
         words = unknown_name(str(base), MACHINES, "machine")
-        raise RecipeError([Fault(words, BASE, source)])
+        raise _placed(words, BASE, source, text)
     below = tables_of(shipped_text(base), base, EMPTY)
     return _over({key: value for key, value in data.items() if key != BASE}, below)
+
+
+def _placed(words: str, key: str, source: str, text: str) -> RecipeError:
+    from batik_vector.recipe.reading.validator import relocated
+
+    return relocated(RecipeError([Fault(words, key)]), source, text, ())
 
 
 def _over(above: dict[str, Any], below: dict[str, Any]) -> dict[str, Any]:

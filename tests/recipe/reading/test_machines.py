@@ -9,6 +9,7 @@ import pytest
 from batik_vector.command.cli import cli
 from batik_vector.errors import RecipeError
 from batik_vector.machines import MACHINES
+from batik_vector.processes.options import CutProcess
 from batik_vector.recipe.loading import load_recipe
 from batik_vector.recipe.reading.called_processes import read_process
 from batik_vector.recipe.reading.machines import read_machine
@@ -78,7 +79,8 @@ def test_a_compiled_file_carries_the_machine(desk: Path) -> None:
     [
         ("tool = { wdth = 1 }", 'mine.toml:1: tool: unknown key "wdth": did you mean "width"?'),
         ("[tool]\nwidth = 0", "mine.toml:2: tool.width: 0, expected 0.01 to 100 mm"),
-        ('base = "pen"', 'base: unknown machine "pen"'),
+        ('base = "pen"', 'mine.toml:1: base: unknown machine "pen"'),
+        ('says = "x"\nbasis = "canting"', 'mine.toml:2: basis: unknown key "basis": did you mean "base"?'),
         ("", "mine.toml: is empty, expected a machine's profile"),
         ("says = ", "mine.toml:1: is no valid TOML"),
     ],
@@ -106,6 +108,26 @@ def test_processes_in_words_are_those_of_a_recipe() -> None:
 
 
 @pytest.mark.parametrize(
+    "text",
+    [
+        'cut sheet=["300 mm", "200 mm"] kerf="0.15 mm"',
+        "cut sheet=[300,200] 'kerf=0.15 mm'",
+    ],
+)
+def test_values_are_written_as_in_a_recipe(text: str) -> None:
+    process = read_process(text)
+    assert isinstance(process, CutProcess)
+    assert (process.sheet, process.kerf) == ((300.0, 200.0), 0.15)
+    assert read_process(str(process)) == process
+
+
+def test_tables_stand_in_braces_or_have_dots() -> None:
+    braces = read_process('plot hatch={kind="spiral", spacing="0.5 mm"} pens={"old wax"=2, ash = 1}')
+    assert braces == read_process("plot hatch.kind=spiral hatch.spacing=0.5mm pens={'old wax'=2,ash=1}")
+    assert read_process(str(braces)) == braces
+
+
+@pytest.mark.parametrize(
     ("text", "words"),
     [
         ("plto", 'unknown kind of process "plto": did you mean "plot"?'),
@@ -114,9 +136,43 @@ def test_processes_in_words_are_those_of_a_recipe() -> None:
         ("plot join", '"join", expected KEY=VALUE'),
         ("", "expected a process"),
         ('plot "', "expected a process"),
+        ("cut sheet=[300,200", "expected a process"),
+        ("cut kerf = 1", '"kerf", expected KEY=VALUE'),
+        ("cut kerf=1 kerf=2", "kerf: has a value already"),
+        ("plot hatch=spiral", 'hatch: "spiral", expected a table with a kind'),
+        ("cut sheet_number=2", "sheet_number: 2, expected the size of a sheet beside it"),
     ],
 )
 def test_wrong_words_are_told_with_the_nearest_right_ones(text: str, words: str) -> None:
     with pytest.raises(RecipeError, match=r"^--process") as told:
         read_process(text)
     assert words in str(told.value)
+
+
+@pytest.mark.parametrize(
+    ("format_", "machine", "words"),
+    [
+        ("gcode", "hp7475a", '"hp7475a" takes hpgl: expected another machine for gcode'),
+        ("hpgl", "grbl-laser", '"grbl-laser" takes gcode: expected another machine for hpgl'),
+    ],
+)
+def test_a_machine_is_not_spoken_to_in_anothers_language(
+    desk: Path, format_: str, machine: str, words: str
+) -> None:
+    def told(*options: str) -> str:
+        done = runner().invoke(cli, ["compile", str(desk / "dot.toml"), "-o", str(desk / "out"), *options])
+        assert done.exit_code == 2
+        assert not (desk / "out").exists()
+        return done.stderr
+
+    assert f"machine: {words}" in told("-f", format_, "--machine", machine)
+    (desk / "dot.toml").write_text(RECIPE.replace("mine.toml", machine).replace('"svg"', f'"{format_}"'))
+    assert f"dot.toml:15: output[0].machine: {words}" in told()
+
+
+def test_what_a_format_refuses_is_told_with_the_recipes_name(desk: Path) -> None:
+    (desk / "mine.toml").write_text('[hpgl]\npage = [{ name = "a7", low = [0, 0], high = [900, 900] }]\n')
+    call = ["compile", str(desk / "dot.toml"), "-f", "hpgl", "--machine", str(desk / "mine.toml")]
+    done = runner().invoke(cli, [*call, "-o", str(desk / "out")])
+    assert done.exit_code == 2
+    assert "dot.toml: the drawing is 40 x 40 mm" in done.stderr
