@@ -336,7 +336,6 @@ def _cut(asked: Asked, plan: Plan) -> Iterator[Row]:
         ("area", "and their area within 0.1 %", 0.001),
     ):
         yield asked.beside(13, words, f"cut/{BATIK} off", "cut/plottool off", key, most)
-    yield asked.faster(13, "its way takes no more time than plottool's", "cut/plottool", f"cut/{BATIK}", 1)
 
 
 def _machines(asked: Asked, plan: Plan) -> Iterator[Row]:
