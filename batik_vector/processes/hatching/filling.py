@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import shapely
 
-from batik_vector.geometry.outlines import MM, Index, Outlines, nothing, together
+from batik_vector.geometry.congruence import different
+from batik_vector.geometry.outlines import MM, Index, Outlines, nothing, runs, together
 from batik_vector.processes.hatching.crossings import Lines
 from batik_vector.processes.hatching.options import (
     ConcentricHatch,
@@ -50,6 +51,18 @@ def hatched(areas: Outlines, spec: Hatch, pen: float) -> Outlines:
     inset = width / 2 if spec.inset is None else spec.inset * MM
     spacing = width if spec.spacing is None else spec.spacing * MM
     check_work(areas, spec, spacing, width)
+    if isinstance(spec, ParallelHatch):
+        # Where lines cross a copy hangs on where it lies.
+        strokes, _ = _strokes(areas, spec, inset, spacing, width)
+        return strokes
+    heads, number, corner = different(areas)
+    strokes, marks = _strokes(areas.taken(heads, -corner[heads]), spec, inset, spacing, width)
+    which, ends = runs(np.searchsorted(marks, np.arange(len(heads) + 1)), number)
+    return strokes.taken(which, np.repeat(corner, np.diff(ends), axis=0))
+
+
+def _strokes(areas: Outlines, spec: Hatch, inset: float, spacing: float, width: float) -> Strokes:
+    """Return the strokes that fill areas, mark by mark; lengths are in steps."""
     whole = Regions.of(areas)
     inner, _ = whole.drawn_in(inset)
     drawn = _filled(inner, spec, spacing, width)
@@ -57,7 +70,8 @@ def hatched(areas: Outlines, spec: Hatch, pen: float) -> Outlines:
         drawn.append(_thin(whole, inner, inset))
     strokes = together([each for each, _ in drawn])
     marks = np.concatenate([of for _, of in drawn])
-    return strokes.taken(np.argsort(marks, kind="stable"))
+    order = np.argsort(marks, kind="stable")
+    return strokes.taken(order), marks[order]
 
 
 def unreached(areas: Outlines, spec: Hatch, pen: float) -> float:
@@ -72,11 +86,13 @@ def unreached(areas: Outlines, spec: Hatch, pen: float) -> float:
     """
     areas = _sound(areas)
     inset = (pen / 2 if spec.inset is None else spec.inset) * MM
-    whole = Regions.of(areas)
+    heads, number, corner = different(areas)
+    whole = Regions.of(areas.taken(heads, -corner[heads]))
+    times = np.bincount(number, minlength=len(heads))
     inner, _ = whole.drawn_in(inset)
     asked = whole.taken(np.unique(inner.marks)) if spec.thin else whole
-    reached = shapely.area(shapely.buffer(inner.polygons, inset)).sum()
-    return max(float(shapely.area(asked.polygons).sum() - reached), 0.0) / MM**2
+    reached = shapely.area(shapely.buffer(inner.polygons, inset)) * times[inner.marks]
+    return max(float((shapely.area(asked.polygons) * times[asked.marks]).sum() - reached.sum()), 0.0) / MM**2
 
 
 def _sound(areas: Outlines) -> Outlines:
@@ -100,12 +116,9 @@ def _sound(areas: Outlines) -> Outlines:
 def _filled(inner: Regions, spec: Hatch, spacing: float, width: float) -> list[Strokes]:
     """Return the strokes of what the pen can reach, the edge's at last."""
     if isinstance(spec, ConcentricHatch):
-        return [concentric(inner, spacing, edge_last=spec.edge)]
+        return [concentric(inner, spacing, width, edge_last=spec.edge)]
     if isinstance(spec, SpiralHatch):
-        if not spec.edge:
-            return [spirals(inner, spacing)]
-        within, _ = inner.drawn_in(spacing)
-        return [spirals(within, spacing), as_strokes(inner)]
+        return [spirals(inner, spacing, width, edge_last=spec.edge)]
     assert isinstance(spec, ParallelHatch)
     drawn = list[Strokes]()
     for number, direction in enumerate(directions(spec), start=int(spec.edge)):

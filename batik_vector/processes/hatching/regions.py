@@ -37,7 +37,15 @@ class Regions:
         """Return what lies so many steps within, in pieces, and which of the regions each piece is of."""
         if distance <= 0:
             return self, np.arange(len(self))
+        return self.parts(self.shrunk(distance))
+
+    def shrunk(self, distance: float) -> Geometries:
+        """Return what lies so many steps within each of the regions, in one or more pieces or empty."""
         left = shapely.buffer(self.polygons, -distance, join_style="mitre", mitre_limit=BEYOND)
+        return np.asarray(left, dtype=object)
+
+    def parts(self, left: Geometries) -> tuple[Regions, Index]:
+        """Return what is left of each of the regions in pieces, and which of the regions each piece is of."""
         pieces, of = shapely.get_parts(left, return_index=True)
         whole = ~shapely.is_empty(pieces)
         return Regions(pieces[whole], self.marks[of[whole]]), of[whole]

@@ -1,8 +1,8 @@
 """Rings within rings joined to spirals.
 
-Each ring is left at the place nearest to the beginning of the next one within, and begun a spacing beyond
-that place. So the way from ring to ring is the shortest from the inner one outwards, and lies between them.
-A ring in which several others lie goes on to one of them; the others begin spirals of their own.
+Each ring is left at the place nearest to the beginning of the next one within, and begun a little beyond that
+place. So the way from ring to ring is the shortest from the inner one outwards, and lies between them. A ring
+in which several others lie goes on to one of them; the others begin spirals of their own.
 """
 
 from __future__ import annotations
@@ -17,9 +17,12 @@ from numpy.typing import NDArray
 from batik_vector.geometry.outlines import Index, Outlines, Steps, nothing, to_polylines, together
 from batik_vector.processes.hatching.paths import Stretches, chains, lengths, polylines
 from batik_vector.processes.hatching.regions import Regions
-from batik_vector.processes.hatching.rings import Level, as_strokes, levels
+from batik_vector.processes.hatching.rings import Level, levels
 from batik_vector.values import frozen
 
+GAP = 0.75
+"""How many spacings of a ring are left out between its end and its beginning; ends are round, and at a whole
+spacing white would stay on either side."""
 LARGEST_GAP = 0.25
 """How much of a ring is left out between end and beginning at most: some are shorter than a spacing."""
 
@@ -35,41 +38,39 @@ class _Walks:
     onward: Index
 
 
-def spirals(regions: Regions, spacing: float) -> tuple[Outlines, Index]:
-    """Return a spiral of each chain of rings, from the outside in, and the mark of each."""
-    found = list(levels(regions, spacing))
-    if not found:
-        return nothing(), np.empty(0, np.intp)
-    drawn = [as_rings(level) for level in found]
-    rings = together([outlines for outlines, _, _ in drawn])
-    first = np.cumsum([0, *(len(outlines) for outlines, _, _ in drawn)])
-    walks = _walks(rings, first, [of for _, of, _ in drawn], found, spacing)
+def spirals(regions: Regions, spacing: float, width: float, *, edge_last: bool) -> tuple[Outlines, Index]:
+    """Return a spiral of each chain of rings, from the outside in, and the mark of each.
+
+    Args:
+        regions: bounded by the outmost rings.
+        spacing: from ring to ring, in steps.
+        width: of the pen, in steps.
+        edge_last: whether the outmost rings are strokes of their own, which come last.
+    """
+    found = list(levels(regions, spacing, width))
+    edge, found = (found[:1], found[1:]) if edge_last else ([], found)
+    marks = np.concatenate([np.empty(0, np.intp), *(level.marks for level in found)])
+    rings = together([level.strokes for level in found])
+    first = np.cumsum([0, *(len(level.strokes) for level in found)])
+    walks = _walks(rings, first, found, spacing)
     strokes, heads = _drawn(rings, walks)
-    return strokes, np.concatenate([marks for _, _, marks in drawn])[heads]
+    drawn = [strokes, *(level.strokes for level in edge)]
+    return together(drawn), np.concatenate([marks[heads], *(level.marks for level in edge)])
 
 
-def as_rings(level: Level) -> tuple[Outlines, Index, Index]:
-    """Return the rings of a level as strokes, and the region and the mark of each."""
-    own = Regions(level.regions.polygons, np.arange(len(level.regions)))
-    strokes, of = as_strokes(own)
-    return strokes, of, level.regions.marks[of]
-
-
-def _walks(
-    rings: Outlines, first: Index, regions: Sequence[Index], found: Sequence[Level], spacing: float
-) -> _Walks:
+def _walks(rings: Outlines, first: Index, found: Sequence[Level], spacing: float) -> _Walks:
     """Return the walks round rings, settled from the inside out.
 
     Args:
         rings: all of them, level by level.
         first: where each level begins among them.
-        regions: the region of its level that each ring bounds, for each level.
         found: the levels.
         spacing: in steps.
     """
     lines = to_polylines(rings)
     whole = shapely.length(lines)
-    gap = np.minimum(spacing, LARGEST_GAP * whole)
+    # Lines that are no rings are drawn from end to end.
+    gap = np.where(rings.closed, np.minimum(GAP * spacing, LARGEST_GAP * whole), 0.0)
     begin, end = np.zeros(len(rings)), whole - gap
     onward = np.full(len(rings), -1, np.intp)
     for number in range(len(found) - 1, 0, -1):
@@ -78,7 +79,7 @@ def _walks(
             np.arange(first[number - 1], first[number]),
         )
         starts = shapely.line_interpolate_point(lines[inner], begin[inner])
-        child, parent = _pairs(found[number].parents[regions[number]], regions[number - 1])
+        child, parent = _pairs(found[number].within, found[number - 1].bounds)
         away = np.rint(shapely.distance(starts[child], lines[outer[parent]]))
         nearest = np.lexsort((parent, away, child))
         nearest = nearest[np.diff(child[nearest], prepend=-1) > 0]
@@ -106,13 +107,16 @@ def _drawn(rings: Outlines, walks: _Walks) -> tuple[Outlines, Index]:
     linked = np.flatnonzero(walks.onward >= 0)
     before[walks.onward[linked]] = linked
     order, heads = chains(before)
+    if not len(rings):
+        return nothing(), heads
     begun, first = _places(rings, walks.begin)
     ended, last = _places(rings, walks.end)
     count = last - first + np.where(walks.end < walks.begin, np.diff(rings.rings), 0)
     ways = Stretches(np.arange(len(rings)), first + 1, count, np.zeros(len(rings), bool)).taken(order)
     lone = np.diff(np.append(heads, len(order))) == 1
     sizes = ways.count + 2
-    # The whole ring, which neither begins nor ends.
+    # The whole ring, which neither begins nor ends, or the whole line.
+    ways.first[heads[lone]] = rings.rings[order[heads[lone]]]
     ways.count[heads[lone]] = sizes[heads[lone]] = np.diff(rings.rings)[order[heads[lone]]]
     ends = np.concatenate([[0], np.cumsum(sizes)])
     points = np.empty((ends[-1], 2), np.int64)
@@ -120,7 +124,7 @@ def _drawn(rings: Outlines, walks: _Walks) -> tuple[Outlines, Index]:
     members, of, nth = ways.members(rings)
     points[ends[of] + (sizes - ways.count > 0)[of] + nth] = rings.points[members]
     strokes, kept = polylines(points, np.append(ends[heads], ends[-1]))
-    return replace(strokes, closed=lone[kept]), order[heads[kept]]
+    return replace(strokes, closed=lone[kept] & rings.closed[order[heads[kept]]]), order[heads[kept]]
 
 
 def _places(rings: Outlines, along: NDArray[np.float64]) -> tuple[Steps, Index]:

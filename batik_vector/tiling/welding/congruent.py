@@ -11,7 +11,6 @@ Coordinates are whole grid steps.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
@@ -20,81 +19,15 @@ from numpy.typing import NDArray
 
 from batik_vector.artwork import Geometries
 from batik_vector.geometry import work
-from batik_vector.geometry.outlines import Index, Offsets, Outlines, Steps, of_polygons, runs, to_polygons
+from batik_vector.geometry.congruence import alike, different, same_points
+from batik_vector.geometry.outlines import Index, Outlines, Steps, of_polygons, runs, to_polygons
 from batik_vector.geometry.ragged import Ragged
 from batik_vector.geometry.regions import oriented
 from batik_vector.tiling.torus.torus import polygons_of, to_step_grid, translate
 from batik_vector.units import STEPS_PER_MM
 from batik_vector.values import frozen
 
-_MIX = tuple(np.uint64(k) for k in (0x9E3779B97F4A7C15, 0xBF58476D1CE4E5B9, 0x94D049BB133111EB))
-"""Odd multipliers of a 64-bit mixer: Steele, Lea and Flood, "Fast splittable generators" (2014)."""
-
 Predicate = Callable[[Geometries, Geometries], NDArray[np.bool_]]
-
-
-def alike(rows: Steps, offsets: Offsets | None = None) -> tuple[Index, Index]:
-    """Return which runs of rows equal none before them, and for each run which of those it equals.
-
-    Args:
-        rows: shape (m, c), whole numbers.
-        offsets: where each of the n runs begins, and at last where the last one ends; none is empty. None
-            means that each row is a run.
-
-    Returns:
-        Shapes (k,), ascending, and (n,), numbers of the former. Fingerprints find the candidates, and each
-        is compared with its first in full.
-    """
-    if not len(rows):
-        return np.empty(0, np.intp), np.empty(0, np.intp)
-    prints = _fingerprints(rows, offsets)
-    order = np.argsort(prints, kind="stable")
-    begins = np.ones(len(order), bool)
-    begins[1:] = prints[order][1:] != prints[order][:-1]
-    first = np.empty(len(order), np.intp)
-    first[order] = order[begins][np.cumsum(begins) - 1]
-    again = np.flatnonzero(first != np.arange(len(first)))
-    if len(again):
-        other = again[~_equal(rows, offsets, again, first[again])]
-        first[other] = other
-    heads = np.flatnonzero(first == np.arange(len(first)))
-    return heads, np.searchsorted(heads, first)
-
-
-def _fingerprints(rows: Steps, offsets: Offsets | None) -> NDArray[np.uint64]:
-    if offsets is None:
-        mixed = np.zeros(len(rows), np.uint64)
-    else:
-        place = np.arange(len(rows)) - np.repeat(offsets[:-1], np.diff(offsets))
-        mixed = place.astype(np.uint64) * _MIX[0]
-    for column in rows.T:
-        mixed ^= column.astype(np.uint64)
-        mixed *= _MIX[1]
-        mixed ^= mixed >> np.uint64(29)
-    mixed *= _MIX[2]
-    mixed ^= mixed >> np.uint64(32)
-    return mixed if offsets is None else np.add.reduceat(mixed, offsets[:-1])
-
-
-def _equal(rows: Steps, offsets: Offsets | None, a: Index, b: Index) -> NDArray[np.bool_]:
-    """Return whether runs a[i] and b[i] are equal."""
-    if offsets is None:
-        return _same_points(rows[a], rows[b])
-    sizes = np.diff(offsets)
-    same = np.asarray(sizes[a] == sizes[b])
-    mine, ends = runs(offsets, a[same])
-    if len(mine):
-        equal = _same_points(rows[mine], rows[runs(offsets, b[same])[0]])
-        same[same] = np.logical_and.reduceat(equal, ends[:-1])
-    return same
-
-
-def _same_points(a: Steps, b: Steps) -> NDArray[np.bool_]:
-    """Return which rows are equal: column by column, since NumPy's loop along short rows is dear."""
-    same = a[:, 0] == b[:, 0]
-    for column in range(1, a.shape[1]):
-        same &= a[:, column] == b[:, column]
-    return np.asarray(same)
 
 
 class Copies:
@@ -137,7 +70,7 @@ class Repeated:
         """Return the same copies, of shapes that are all different."""
         if not len(self.shapes):
             return self
-        heads, number, corner = _different(of_polygons(self.shapes))
+        heads, number, corner = different(of_polygons(self.shapes))
         away = corner - corner[heads][number]
         return Repeated(self.shapes[heads], number[self.which], self.shift + away[self.which])
 
@@ -200,7 +133,7 @@ class Stock:
         if not len(areas):
             return together([]), owner
         steps, torn = _without_repeats(of_polygons(areas, STEPS_PER_MM))
-        heads, number, corner = _different(steps)
+        heads, number, corner = different(steps)
         shapes = to_polygons(steps.taken(heads, -corner[heads]))
         bad = torn[heads] | ~shapely.is_valid(shapes)
         if bad.any():
@@ -213,7 +146,7 @@ class Stock:
         """Take up valid polygons in grid steps, those that are alike as copies of one shape."""
         if not len(areas):
             return together([])
-        heads, number, corner = _different(of_polygons(areas))
+        heads, number, corner = different(of_polygons(areas))
         return self.add(areas[heads]).taken(number).moved(corner - corner[heads][number])
 
     def copies(self, parts: Sequence[Repeated]) -> list[Copies]:
@@ -310,52 +243,11 @@ def _diagonals(bounds: Steps) -> Geometries:
     return np.asarray(shapely.linestrings(bounds.reshape(-1, 2, 2).astype(np.float64)), dtype=object)
 
 
-def _different(steps: Outlines) -> tuple[Index, Index, Steps]:
-    """Return marks that equal none before them, which of those each mark is, and its lower left corner.
-
-    Marks are alike when one is the other moved, wherever their rings begin. Raw outlines are compared first,
-    so that only the different ones need their rings turned.
-    """
-    corner = steps.bounds()[:, :2]
-    steps = replace(steps, points=steps.points - np.repeat(corner, steps.sizes(), axis=0))
-    heads, number = alike(_rows(steps), _spans(steps))
-    turned = _begun_low(steps.taken(heads))
-    chosen, again = alike(_rows(turned), _spans(turned))
-    return heads[chosen], again[number], corner
-
-
-def _spans(steps: Outlines) -> Offsets:
-    ends: Offsets = steps.rings[steps.marks]
-    return ends
-
-
-def _rows(steps: Outlines) -> Steps:
-    """Return the points, with where a ring begins written into the lowest bit."""
-    rows = steps.points.copy()
-    rows[:, 0] *= 2
-    rows[steps.rings[:-1], 0] += 1
-    return rows
-
-
-def _begun_low(steps: Outlines) -> Outlines:
-    """Return the same rings, each begun at its leftmost, lowest point."""
-    sizes = np.diff(steps.rings)
-    key = (steps.points[:, 0] << 32) + steps.points[:, 1]
-    least = np.repeat(np.minimum.reduceat(key, steps.rings[:-1]), sizes)
-    ring = np.repeat(np.arange(len(sizes)), sizes)
-    low = np.flatnonzero(key == least)
-    _, first = np.unique(ring[low], return_index=True)
-    begin = low[first] - steps.rings[:-1]
-    place = np.arange(len(ring)) - steps.rings[ring]
-    order = steps.rings[ring] + (place + begin[ring]) % sizes[ring]
-    return Outlines(steps.points[order], steps.rings, steps.marks, steps.closed)
-
-
 def _without_repeats(steps: Outlines) -> tuple[Outlines, NDArray[np.bool_]]:
     """Drop points that repeat the one before; return also which marks have a ring that vanished thereby."""
     again = np.zeros(len(steps.points), bool)
-    again[1:] = _same_points(steps.points[1:], steps.points[:-1])
-    again[steps.rings[:-1]] = _same_points(steps.points[steps.rings[:-1]], steps.points[steps.rings[1:] - 1])
+    again[1:] = same_points(steps.points[1:], steps.points[:-1])
+    again[steps.rings[:-1]] = same_points(steps.points[steps.rings[:-1]], steps.points[steps.rings[1:] - 1])
     left = np.add.reduceat(~again, steps.rings[:-1])
     thin = np.repeat(left < 3, np.diff(steps.rings))
     torn = np.logical_or.reduceat(left < 3, steps.marks[:-1])

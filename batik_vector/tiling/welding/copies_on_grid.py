@@ -16,12 +16,13 @@ import shapely
 from numpy.typing import NDArray
 
 from batik_vector.geometry.coincidence import edges
+from batik_vector.geometry.congruence import alike
 from batik_vector.geometry.maps.affine import SIMILAR, Affine
 from batik_vector.geometry.maps.affines import ONE, Affines
 from batik_vector.geometry.ragged import Ragged
 from batik_vector.geometry.sampling import Array, Geometries, Indices, Points
 from batik_vector.tiling.torus.torus import polygons_of, to_step_grid
-from batik_vector.tiling.welding.congruent import Repeated, alike
+from batik_vector.tiling.welding.congruent import Repeated
 from batik_vector.units import GRID_MM, STEPS_PER_MM, nearest_steps
 from batik_vector.values import frozen
 

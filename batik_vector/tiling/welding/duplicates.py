@@ -15,8 +15,8 @@ import shapely
 from numpy.typing import NDArray
 
 from batik_vector.artwork import Geometries
+from batik_vector.geometry.congruence import alike
 from batik_vector.tiling.torus.torus import Window
-from batik_vector.tiling.welding.congruent import alike
 from batik_vector.tiling.welding.weld import components
 
 ROUNDED = 1

@@ -12,10 +12,11 @@ import shapely
 from numpy.typing import NDArray
 
 from batik_vector.artwork import Geometries
+from batik_vector.geometry.congruence import alike
 from batik_vector.geometry.outlines import Index, Offsets, Steps, runs
 from batik_vector.geometry.sampling import Indices
 from batik_vector.tiling.torus import overlay
-from batik_vector.tiling.welding.congruent import Copies, Stock, alike, together
+from batik_vector.tiling.welding.congruent import Copies, Stock, together
 
 ROUNDS = 6
 """How often areas that joining brought together are joined again; two are seldom needed, and dense scribbles

@@ -12,6 +12,7 @@ import shapely
 from numpy.typing import NDArray
 
 from batik_vector.artwork import Cell, DropAxis, Geometries
+from batik_vector.geometry.congruence import alike
 from batik_vector.geometry.outlines import Index, runs
 from batik_vector.tiling.torus import overlay, seams
 from batik_vector.tiling.torus.torus import (
@@ -26,7 +27,7 @@ from batik_vector.tiling.torus.torus import (
     translates,
     wrap,
 )
-from batik_vector.tiling.welding.congruent import Copies, Stock, alike, together
+from batik_vector.tiling.welding.congruent import Copies, Stock, together
 from batik_vector.tiling.welding.endings import Places, lone_ends, on_edges, own_ends, tips
 from batik_vector.tiling.welding.weld import meeting, overlap
 
