@@ -57,7 +57,7 @@ WINGS: dict[str, Floors] = {
     "tiling": _floors("layouts", "torus", "welding tossing", "symmetry cloth borders"),
     "geometry": _floors(
         "sampling outlines edge_snap",
-        "known work paths arc_fitting",
+        "known work paths arc_fitting congruence",
         "regions nesting",
         "lsystems",
         "generators",
