@@ -274,6 +274,7 @@ def run(job: Job, tell: Callable[[str], None], look: Callable[[Page], None] | No
                 place = path.with_name(f"{path.stem}{part.ending}{path.suffix}")
                 writers.append((place, _writer(job, place, key, part, size_of(page, output), tell, reports)))
             notes += page_warnings(path, output, page)
+    _check_apart(job, writers)
     _write(writers)
     return {
         "recipe": job.source,
@@ -282,6 +283,16 @@ def run(job: Job, tell: Callable[[str], None], look: Callable[[Page], None] | No
         "seconds": round(time.perf_counter() - start, 3),
         "warnings": notes,
     }
+
+
+def _check_apart(job: Job, files: Sequence[tuple[Path, Any]]) -> None:
+    """Raise where a sheet of a divided drawing has the name of another file of the recipe."""
+    taken: set[str] = set()
+    for path, _ in files:
+        if (place := os.path.normcase(path)) in taken:
+            words = f'two outputs would be written to "{path}": give one of them another name'
+            raise RecipeError([Fault(words, source=job.source)])
+        taken.add(place)
 
 
 def run_quietly(job: Job) -> dict[str, Any]:

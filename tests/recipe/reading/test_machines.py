@@ -176,3 +176,16 @@ def test_what_a_format_refuses_is_told_with_the_recipes_name(desk: Path) -> None
     done = runner().invoke(cli, [*call, "-o", str(desk / "out")])
     assert done.exit_code == 2
     assert "dot.toml: the drawing is 40 x 40 mm" in done.stderr
+
+
+def test_a_sheet_of_a_divided_drawing_does_not_take_anothers_name(desk: Path) -> None:
+    named = '[[output]]\nformat = "hpgl"\n'
+    text = (
+        RECIPE.split("[[output]]")[0] + f'{named}name = "p1x1"\n{named}page = "30 x 30 mm"\npages = "tile"\n'
+    )
+    (desk / "dot.toml").write_text(text)
+    done = runner().invoke(cli, ["compile", str(desk / "dot.toml"), "-o", str(desk / "out")])
+    assert done.exit_code == 2
+    assert "dot.toml: two outputs would be written to" in done.stderr
+    assert "dot-p1x1.hpgl" in done.stderr
+    assert not (desk / "out").exists()
