@@ -42,10 +42,13 @@ def check_kerf(regions: Geometries, kerf: int) -> None:
 
 def _narrower(regions: Geometries, kerf: int) -> tuple[NarrowPlace, str] | None:
     """Return the narrowest place where it is narrower than the cut, and what is narrow there."""
-    part, gap = (narrowest(regions, kerf + MARGIN) for narrowest in (narrowest_part, narrowest_gap))
-    both = ((part, "what is drawn"), (gap, "a gap"))
-    found = [(place, what) for place, what in both if place is not None]
-    return min(found, key=lambda each: each[0].breadth, default=None)
+    # A bay behind a door may be shut at one breadth and hold an island of beam, which rounding loses, at a smaller.
+    for breadth in (kerf + MARGIN, kerf):
+        part, gap = (narrowest(regions, breadth) for narrowest in (narrowest_part, narrowest_gap))
+        both = ((part, "what is drawn"), (gap, "a gap"))
+        if found := [(place, what) for place, what in both if place is not None]:
+            return min(found, key=lambda each: each[0].breadth)
+    return None
 
 
 def check_blade(contours: Outlines, offset: int) -> None:

@@ -174,8 +174,12 @@ def tracked(way: Outlines, offset: float) -> list[np.ndarray]:
 
 
 def depth_signs(rings: np.ndarray) -> np.ndarray:
-    """Return 1 for rings about what is drawn, and -1 for holes."""
-    _, inside = shapely.STRtree(rings).query(rings, predicate="contains_properly")
+    """Return 1 for rings about what is drawn, and -1 for holes; rings may touch."""
+    places = shapely.point_on_surface(rings)
+    outer, inside = shapely.STRtree(rings).query(rings, predicate="intersects")
+    larger = shapely.area(rings[outer]) > shapely.area(rings[inside])
+    about = larger & np.asarray(shapely.contains(rings[outer], places[inside]), bool)
+    inside = inside[about]
     return np.where(np.bincount(inside, minlength=len(rings)) % 2, -1, 1)
 
 
