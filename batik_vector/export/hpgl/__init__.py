@@ -90,6 +90,7 @@ class _HpglSurface:
         self._pen = self._chosen = 0
         self._at: tuple[int, int] | None = None
         self._marked = not sheet.marks
+        self._over = 0
 
     def begin(self, page: Page) -> None:
         words = self._device.start
@@ -109,7 +110,7 @@ class _HpglSurface:
         if not self._pen:
             return
         points, offsets = polylines(self._plan, outlines)
-        self._refuse_beyond(points, (-FARTHEST, -FARTHEST, FARTHEST, FARTHEST))
+        self._refuse(_beyond(points, (-FARTHEST, -FARTHEST, FARTHEST, FARTHEST)))
         self._draw(points, offsets, outlines.closed)
 
     def lines(self, outlines: Outlines) -> None:
@@ -119,6 +120,7 @@ class _HpglSurface:
         if not self._marked and any(self._pens):
             self._take(next(filter(None, self._pens)))
         self._lift()
+        self._refuse(self._over)
         self._sink.write(self._device.end.encode("ascii") + b"\n")
 
     def _draw(self, points: Steps, offsets: Offsets, closed: NDArray[np.bool_]) -> None:
@@ -126,7 +128,8 @@ class _HpglSurface:
             points, offsets = clipped(points, offsets, closed, self._sheet.window)
         points = points + np.array(self._sheet.shift)
         if self._sheet.limits is not None:
-            self._refuse_beyond(points, self._sheet.limits)
+            # Told at the end: what a later pen draws may go farther.
+            self._over = max(self._over, _beyond(points, self._sheet.limits))
         strokes = trail(points, offsets, self._at if self._pen == self._chosen else None)
         if not len(strokes):
             return
@@ -154,13 +157,7 @@ class _HpglSurface:
             self._sink.write(b"PU;\n")
             self._at = None
 
-    def _refuse_beyond(self, points: Steps, limits: Window) -> None:
-        if not len(points):
-            return
-        over = max(
-            *(limits[axis] - int(points[:, axis].min()) for axis in (0, 1)),
-            *(int(points[:, axis].max()) - limits[axis + 2] for axis in (0, 1)),
-        )
+    def _refuse(self, over: int) -> None:
         if over > 0:
             unit = self._plan.frame.unit
             # A tenth of a mm more than is needed, so that the number is a short one.
@@ -169,6 +166,16 @@ class _HpglSurface:
                 f"strokes go {format_mm(over * unit / 1_000_000)} mm beyond what the machine can draw on, "
                 f'as they stand outside the drawing: expected margin = "{format_mm(needed)} mm", or more'
             )
+
+
+def _beyond(points: Steps, limits: Window) -> int:
+    """Return by how much points lie beyond limits, 0 or less where none does."""
+    if not len(points):
+        return 0
+    return max(
+        *(limits[axis] - int(points[:, axis].min()) for axis in (0, 1)),
+        *(int(points[:, axis].max()) - limits[axis + 2] for axis in (0, 1)),
+    )
 
 
 def _pens(page: Page, options: HpglOptions) -> tuple[int, ...]:

@@ -42,7 +42,7 @@ def check_kerf(regions: Geometries, kerf: int) -> None:
 
 def _narrower(regions: Geometries, kerf: int) -> tuple[NarrowPlace, str] | None:
     """Return the narrowest place where it is narrower than the cut, and what is narrow there."""
-    # A bay behind a door may be shut at one breadth and hold an island of beam, which rounding loses, at a smaller.
+    # What lies behind the door of a bay may be shut at one breadth and open by a hair at a smaller.
     for breadth in (kerf + MARGIN, kerf):
         part, gap = (narrowest(regions, breadth) for narrowest in (narrowest_part, narrowest_gap))
         both = ((part, "what is drawn"), (gap, "a gap"))

@@ -220,6 +220,13 @@ def test_strokes_outside_the_drawing_are_not_cut_off_unseen() -> None:
     assert found.bounds == (0, 240, 240, 240)
 
 
+def test_the_margin_that_would_do_is_that_of_all_pens() -> None:
+    lines = [line((-near, 5), (5, 5)) for near in (1, 3, 2)]
+    layers = tuple(Layer(Ink(f"i{n}", "#000"), lines=geometries(each)) for n, each in enumerate(lines))
+    with pytest.raises(ExportError, match=r'strokes go 3 mm beyond .*: expected margin = "3 mm", or more'):
+        render(replace(flag(), layers=layers), "hpgl", HpglOptions(device=Hpgl(page=(A3,))), check=False)
+
+
 @pytest.mark.parametrize("encoded", [False, True])
 @pytest.mark.parametrize("overlap", [0.0, 2.0, 3.7])
 def test_tiles_laid_by_their_marks_show_the_drawing(overlap: float, encoded: bool) -> None:

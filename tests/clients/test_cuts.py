@@ -1,0 +1,102 @@
+"""What is cut, in programs that cutters and lasers are fed by: each follows the strokes one by one."""
+
+from __future__ import annotations
+
+import functools
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
+import numpy as np
+import pytest
+import shapely
+from ezdxf.filemanagement import readfile
+
+from batik_vector.compiling.compiler import compile_recipe
+from batik_vector.export import GcodeOptions, SvgOptions, gcode, render
+from batik_vector.geometry.outlines import to_polylines
+from batik_vector.processes.options import CutProcess
+from batik_vector.processes.prepared import Prepared
+from batik_vector.recipe.loading import load_recipe
+from batik_vector.recipe.reading.machines import read_machine
+from tests.clients import programs
+from tests.clients.test_gcode import followed
+from tests.clients.test_machines import LABEL, SVG, strokes_of
+
+pytestmark = pytest.mark.clients
+
+SAMPLES = Path(__file__).parents[2] / "samples"
+CUTS = {
+    "machine-vinyl": ("vinyl-cutter", {"weed_box": 4.0, "weed_lines": 30.0, "registration": 6.0}),
+    "machine-laser": ("grbl-laser", {"keep": "ground", "tabs": 1}),
+}
+
+
+@functools.cache
+def prepared(name: str) -> Prepared:
+    machine, told = CUTS[name]
+    page = compile_recipe(load_recipe(SAMPLES / f"{name}.toml"))
+    return CutProcess(**told).apply(page, read_machine(machine))  # type: ignore[arg-type]
+
+
+@pytest.fixture(params=CUTS)
+def cut(request: pytest.FixtureRequest) -> Prepared:
+    return prepared(request.param)
+
+
+def lines_of(page: Prepared) -> list[np.ndarray]:
+    """Return the strokes of each tool as lines in mm, those that are closed coming back."""
+    return [to_polylines(tool.strokes, 1000) for tool in page.tools]
+
+
+def same(found: list[shapely.LineString], told: np.ndarray, near: float) -> None:
+    """Check that strokes are followed one by one, in their order and direction."""
+    assert len(found) == len(told)
+    assert shapely.hausdorff_distance(found, told).max() <= near
+    for end in (0, -1):
+        apart = shapely.distance(shapely.get_point(found, end), shapely.get_point(told, end))
+        assert apart.max() <= near
+
+
+def test_vpype_follows_a_cut(cut: Prepared, tmp_path: Path) -> None:
+    path = tmp_path / "cut.svg"
+    path.write_bytes(render(cut, "svg", SvgOptions(cloth=False)))
+    layers = ET.parse(programs.vpype(path)).getroot().findall(f"{SVG}g")
+    names = [layer.get(LABEL, "") for layer in layers]
+    assert names == [f"{pen} {tool.ink.name}" for pen, tool in enumerate(cut.tools, start=1)]
+    # The page grows by what stands outside it, as the marks do: alike on all its sides.
+    beyond = -float(min(shapely.bounds(np.concatenate(lines_of(cut))).min(), 0.0))
+    for layer, told in zip(layers, lines_of(cut), strict=True):
+        page = shapely.transform(told, lambda at: [beyond, cut.cell.height + beyond] + at * [1, -1])
+        same(list(strokes_of(layer)), page, 0.005)
+
+
+def test_ezdxf_finds_a_cut_in_order_and_nothing_to_mend(cut: Prepared, tmp_path: Path) -> None:
+    path = tmp_path / "cut.dxf"
+    path.write_bytes(render(cut, "dxf"))
+    document = readfile(path)
+    audit = document.audit()
+    assert not audit.errors
+    assert not audit.fixes
+    for tool, told in zip(cut.tools, lines_of(cut), strict=True):
+        found = []
+        for entity in document.modelspace().query(f'LWPOLYLINE[layer=="{tool.ink.name}"]'):
+            points = np.array(entity.get_points("xy"))  # type: ignore[attr-defined]
+            closed = entity.closed  # type: ignore[attr-defined]
+            found.append(shapely.LineString(np.vstack([points, points[:1]]) if closed else points))
+        same(found, told, 1e-6)
+
+
+def test_librecad_prints_a_cut(cut: Prepared, tmp_path: Path) -> None:
+    path = tmp_path / "cut.dxf"
+    path.write_bytes(render(cut, "dxf"))
+    left, low, right, high = programs.page_mm(programs.librecad(path))
+    assert right - left >= cut.cell.width - 0.36
+    assert high - low >= cut.cell.height - 0.36
+
+
+def test_an_interpreter_of_gcode_follows_a_cut(tmp_path: Path) -> None:
+    page = prepared("machine-laser")
+    profile = read_machine("grbl-laser")
+    strokes, said = followed(gcode.render(page, GcodeOptions(machine_profile=profile)), tmp_path)
+    assert "PROGRAM_END()" in said
+    same([shapely.LineString(stroke.points) for stroke in strokes], lines_of(page)[0], 0.001)
