@@ -83,7 +83,10 @@ SAMPLED_MM = 0.02
 
 @frozen(eq=False)
 class Found:
-    """What was measured of one source; ``onto`` as in :class:`Reading`, of a drawing without a recipe."""
+    """What was measured of one source; ``onto`` as in :class:`Reading`, of a drawing without a recipe.
+
+    ``pattern`` is what a machine is asked of, where that is not what is drawn.
+    """
 
     source: str
     artwork: Artwork
@@ -91,6 +94,7 @@ class Found:
     facts: dict[str, Any]
     onto: Matrix | None = None
     audit: Audit | None = None
+    pattern: Artwork | None = None
 
     @property
     def passed(self) -> bool:
@@ -140,7 +144,7 @@ def _audited(found: Found, wishes: Wishes, tell: Tell, page: tuple[float, float]
     if wishes.machine is None:
         return found
     tell("auditing")
-    told = audit(found.artwork, wishes.machine, name=wishes.machine_name, page=page)
+    told = audit(found.pattern or found.artwork, wishes.machine, name=wishes.machine_name, page=page)
     facts = found.facts | {"audit": told.as_dict(), "passed": found.facts["passed"] and told.passed}
     return replace(found, facts=facts, audit=told)
 
@@ -192,7 +196,9 @@ def _check_prepared(
     notes = [*reading.notes, *_left_aside(wishes), f"went through {', then '.join(processes)}"]
     if not kept:
         notes[-1] += ": the tile that it was made of was measured"
-    return _drawing_found(source, reading, certificate, promise, notes)
+    found = _drawing_found(source, reading, certificate, promise, notes)
+    # Overcuts, pre-cuts and tabs are open and drawn again on purpose: a machine is asked of the pattern.
+    return found if kept else replace(found, pattern=tile)
 
 
 def _as_promised(source: str, reading: Reading, promise: Promise) -> tuple[Reading, Promise]:

@@ -33,6 +33,9 @@ CLEAN = [
     ("flat-screen", "mega-mendung"),
     ("rotary-screen", "fractal-julia"),
     ("pen-plotter", "chrysanthemum-line"),
+    ("canting", "machine-wax-pen"),
+    ("laser", "machine-laser"),
+    ("vinyl-cutter", "machine-vinyl"),
 ]
 
 

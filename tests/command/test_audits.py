@@ -115,3 +115,13 @@ def test_a_cloth_has_to_fit_the_machine_and_not_the_screen(recipe: Path) -> None
     done = _check(recipe, "--machine", "laser")
     assert "700 × 900 mm are drawn, and the machine reaches 600 × 400 mm" in done.stderr
     assert "are drawn, and" not in _check(recipe, "--machine", "rotary-screen").stderr
+
+
+def test_of_a_cut_file_the_pattern_is_held_to_the_machine(recipe: Path) -> None:
+    recipe.write_text(RECIPE.replace("0.1", "2"))
+    cut = ["--process", "cut blade_offset=0.25 overcut=1 tabs=2", "-o", str(recipe.parent)]
+    assert runner().invoke(cli, ["compile", str(recipe), *cut]).exit_code == 0
+    told = _check(recipe.with_suffix(".svg"), "--machine", "vinyl-cutter")
+    # Its contours are open where tabs hold, and drawn again where they are cut past their start.
+    assert told.exit_code == 0, told.output
+    assert "the tile that it was made of was measured" in told.output
