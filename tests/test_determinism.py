@@ -62,4 +62,5 @@ def test_another_recipe_gives_other_bytes(first: dict[str, bytes], tmp_path: Pat
     changed = RECIPE.read_text(encoding="utf-8") + "\n# one word more\n"
     (tmp_path / RECIPE.name).write_text(changed, encoding="utf-8")
     other = compiled(RECIPE.name, tmp_path, "out", SURROUNDINGS[0])
-    assert all(other[name] != first[name] for name in first)
+    # Plotters choke on comments: HP-GL carries no recipe unless it is told to.
+    assert {name for name in first if other[name] == first[name]} == {"hpgl"}
