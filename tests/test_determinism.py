@@ -63,4 +63,4 @@ def test_another_recipe_gives_other_bytes(first: dict[str, bytes], tmp_path: Pat
     (tmp_path / RECIPE.name).write_text(changed, encoding="utf-8")
     other = compiled(RECIPE.name, tmp_path, "out", SURROUNDINGS[0])
     # Plotters choke on comments: HP-GL carries no recipe unless it is told to.
-    assert {name for name in first if other[name] == first[name]} == {"hpgl"}
+    assert {name for name in first if other[name] == first[name]} == {"four-square.hpgl"}

@@ -18,6 +18,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from batik_vector.geometry.outlines import Index
 from batik_vector.geometry.sampling import Array, Geometries
 from batik_vector.values import frozen
 
@@ -25,6 +26,8 @@ SQUARES = 400_000
 """Squares of a sheet, about."""
 FINEST = 250
 """Steps to a square's side, at least."""
+BLOCK = 16
+"""Squares in the side of a block that is looked at as one."""
 ROUND = 8
 """Chords of a quarter of a circle about a piece's corners."""
 
@@ -62,6 +65,8 @@ def nested(
     area, bounds = shapely.area(pieces), shapely.bounds(pieces)
     tall = np.maximum(bounds[:, 2] - bounds[:, 0], bounds[:, 3] - bounds[:, 1])
     found: list[Place | None] = [None] * len(pieces)
+    if not _may_hold(bounds, width, height, gap, quarters):
+        return None
     forms = [_Form(piece, gap, side, quarters) for piece in pieces]
     for number in np.lexsort([np.arange(len(pieces)), -area, -tall]).tolist():
         form = forms[number]
@@ -69,6 +74,16 @@ def nested(
             return None
         found[number] = _laid(form, sheets, side)
     return [place for place in found if place is not None]
+
+
+def _may_hold(bounds: Array, width: int, height: int, gap: int, quarters: Sequence[int]) -> bool:
+    """Return whether no piece is broader or taller than a sheet, however it is turned."""
+    across, up = bounds[:, 2] - bounds[:, 0] + gap, bounds[:, 3] - bounds[:, 1] + gap
+    fits = np.zeros(len(bounds), bool)
+    for quarter in quarters:
+        wide, tall = (up, across) if quarter % 2 else (across, up)
+        fits |= (wide <= width) & (tall <= height)
+    return bool(fits.all())
 
 
 def _laid(form: _Form, sheets: list[_Sheet], side: int) -> Place:
@@ -107,9 +122,23 @@ def _squares(region: shapely.Geometry, side: int) -> tuple[Shape, int, int]:
     x, y = math.floor(left), math.floor(low)
     columns, rows = math.ceil((right - x) / side), math.ceil((high - y) / side)
     shapely.prepare(region)
-    column, row = np.meshgrid(np.arange(columns), np.arange(rows))
-    boxes = shapely.box(x + column * side, y + row * side, x + (column + 1) * side, y + (row + 1) * side)
-    return _runs(np.asarray(shapely.intersects(region, boxes), bool)), x, y
+    # Block by block first: within most of them all squares are alike.
+    column, row = np.meshgrid(np.arange(0, columns, BLOCK), np.arange(0, rows, BLOCK))
+    blocks = _boxes(x, y, side, column, row, BLOCK)
+    met, full = shapely.intersects(region, blocks), shapely.covers(region, blocks)
+    taken = np.repeat(np.repeat(full, BLOCK, axis=0), BLOCK, axis=1)
+    within = np.arange(BLOCK)
+    rims = np.flatnonzero((met & ~full).ravel())
+    columns_of = column.ravel()[rims, None, None] + within[None, None, :] + 0 * within[None, :, None]
+    rows_of = row.ravel()[rims, None, None] + within[None, :, None] + 0 * within[None, None, :]
+    taken[rows_of, columns_of] = shapely.intersects(region, _boxes(x, y, side, columns_of, rows_of, 1))
+    return _runs(taken[:rows, :columns]), x, y
+
+
+def _boxes(x: int, y: int, side: int, column: Index, row: Index, size: int) -> Geometries:
+    """Return blocks of so many squares, of which the lower left is in a column and a row."""
+    left, low = x + column * side, y + row * side
+    return np.asarray(shapely.box(left, low, left + size * side, low + size * side), object)
 
 
 def _runs(taken: NDArray[np.bool_]) -> Shape:
