@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import gzip
 import os
+import random
 import sqlite3
 from pathlib import Path
 
@@ -110,7 +111,9 @@ def test_a_newer_library_is_left_alone(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "content", [b"title = 'Kawung'\n", b"\0" * 40, b"SQLite format 4\0" + b"x" * 200, os.urandom(5000)]
+    "content",
+    [b"title = 'Kawung'\n", b"\0" * 40, b"SQLite format 4\0" + b"x" * 200, random.Random(7).randbytes(5000)],
+    ids=["recipe", "nothing", "another format", "anything"],
 )
 def test_what_is_no_library_is_refused_and_left_alone(tmp_path: Path, content: bytes) -> None:
     path = tmp_path / "notes.txt"
