@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, Self, TypeAlias
 
 from batik_vector.errors import GeometryError
 from batik_vector.fields import Between, Length, OneOf, Says, check
-from batik_vector.processes.cutting.choices import Inks, Keep, Lines, Narrow, Start, Turns
+from batik_vector.processes.cutting.choices import Inks, Keep, LineBodies, Narrow, Start, Turns
 from batik_vector.processes.hatching.options import AnyHatch
 from batik_vector.units import format_mm
 from batik_vector.values import frozen
@@ -163,8 +163,8 @@ class CutProcess(ProcessSpec):
     inks: Annotated[Inks, Says("out of one sheet all inks (together), or each out of its own (apart)")] = (
         Inks.TOGETHER
     )
-    lines: Annotated[Lines, Says("lines are cut round as areas (body), left out (skip) or refused")] = (
-        Lines.BODY
+    lines: Annotated[LineBodies, Says("lines are cut round as areas (body), left out (skip) or refused")] = (
+        LineBodies.BODY
     )
     keep: Annotated[
         Keep, Says("what keeps its measure: what is drawn (ink), or what is around it (ground)")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import enum
 
 
-class Lines(enum.StrEnum):
+class LineBodies(enum.StrEnum):
     """What becomes of lines."""
 
     BODY = "body"

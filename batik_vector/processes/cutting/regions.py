@@ -12,7 +12,7 @@ from batik_vector.errors import GeometryError
 from batik_vector.geometry.outlines import Outlines, to_polygons, to_polylines
 from batik_vector.geometry.regions import FillRule, polygonal, settle
 from batik_vector.geometry.sampling import Geometries
-from batik_vector.processes.cutting.choices import Lines
+from batik_vector.processes.cutting.choices import LineBodies
 from batik_vector.processes.cutting.overlays import on_grid, united
 from batik_vector.units import STEPS_PER_MM
 
@@ -22,7 +22,7 @@ LEAST = 16
 """Chords of a quarter of such an arc, at least: fine lines would lose some of their breadth."""
 
 
-def regions_of(areas: Outlines, strokes: Outlines, ink: Ink, lines: Lines) -> tuple[Geometries, int]:
+def regions_of(areas: Outlines, strokes: Outlines, ink: Ink, lines: LineBodies) -> tuple[Geometries, int]:
     """Return what an ink covers as polygons that do not overlap, in steps, and how many lines became areas.
 
     Args:
@@ -35,9 +35,9 @@ def regions_of(areas: Outlines, strokes: Outlines, ink: Ink, lines: Lines) -> tu
         GeometryError: where there are open lines and they are refused, or their ink has no breadth.
     """
     filled = to_polygons(areas)
-    if lines is Lines.SKIP or not len(strokes):
+    if lines is LineBodies.SKIP or not len(strokes):
         return welded(filled), 0
-    if lines is Lines.REFUSE:
+    if lines is LineBodies.REFUSE:
         return welded(np.concatenate([filled, _outlined(strokes, ink.name)])), 0
     if not ink.width > 0:
         raise GeometryError(

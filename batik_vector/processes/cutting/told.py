@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from batik_vector.processes.cutting.choices import Inks, Keep, Lines, Narrow, Start, Turns
+from batik_vector.processes.cutting.choices import Inks, Keep, LineBodies, Narrow, Start, Turns
 from batik_vector.units import STEPS_PER_MM
 from batik_vector.values import frozen
 
@@ -29,7 +29,7 @@ class Told:
     """A cut in the kernels' units: lengths in steps, angles in radians. None where nothing is asked."""
 
     inks: Inks
-    lines: Lines
+    lines: LineBodies
     keep: Keep
     narrow: Narrow
     kerf: int
