@@ -124,4 +124,4 @@ def test_of_a_cut_file_the_pattern_is_held_to_the_machine(recipe: Path) -> None:
     told = _check(recipe.with_suffix(".svg"), "--machine", "vinyl-cutter")
     # Its contours are open where tabs hold, and drawn again where they are cut past their start.
     assert told.exit_code == 0, told.output
-    assert "the tile that it was made of was measured" in told.output
+    assert "the tile that it was made of was measured" in told.stderr

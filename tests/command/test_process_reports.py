@@ -4,10 +4,10 @@ import json
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner
 
 from batik_vector.command.cli import cli
 from batik_vector.command.process_reports import duration, metres
+from tests.calling import runner
 
 RECIPE = """
 [motif.square]
@@ -48,8 +48,8 @@ def test_a_plot_tells_what_it_takes_and_what_it_left_out(tmp_path: Path) -> None
     recipe = tmp_path / "twice.toml"
     recipe.write_text(RECIPE, encoding="utf-8")
     call = ["compile", str(recipe), "-o", str(tmp_path), "--process", "plot once=all pens.blue=4", "--json"]
-    done = CliRunner().invoke(cli, call)
-    assert done.exit_code == 0, done.output
+    done = runner().invoke(cli, call)
+    assert done.exit_code == 0, done.stderr
     facts = json.loads(done.stdout)["recipes"][0]["files"][0]["process"]["plot"]
     assert [(each["pen"], each["ink"]) for each in facts["pens"]] == [(1, "wax"), (4, "blue")]
     doubled = facts["doubled"]
@@ -57,19 +57,19 @@ def test_a_plot_tells_what_it_takes_and_what_it_left_out(tmp_path: Path) -> None
     assert f"{doubled['stretches']:,} stretch" in done.stderr
     assert "pen 4, blue: nothing is left to draw" in done.stderr
     assert "change of pen" not in done.stderr
-    checked = CliRunner().invoke(cli, ["check", str(tmp_path / "twice.svg")])
-    assert "went through plot once=all pens={blue=4}" in checked.output
-    assert "differs" not in checked.output
+    checked = runner().invoke(cli, ["check", str(tmp_path / "twice.svg")])
+    assert "went through plot once=all pens={blue=4}" in checked.stderr
+    assert "differs" not in checked.stderr
 
 
 def test_a_plot_is_compared_with_its_recipe_gone_through_the_same(tmp_path: Path) -> None:
     recipe = tmp_path / "twice.toml"
     recipe.write_text(RECIPE, encoding="utf-8")
-    CliRunner().invoke(
+    runner().invoke(
         cli, ["compile", str(recipe), "-o", str(tmp_path), "--machine", "pen-plotter", "--process", "plot"]
     )
     plotted = tmp_path / "twice.svg"
-    assert "differ" not in CliRunner().invoke(cli, ["check", str(plotted)]).output.replace("mm² differ", "")
+    assert "differ" not in runner().invoke(cli, ["check", str(plotted)]).stderr.replace("mm² differ", "")
     drawn = plotted.read_text()
     first = drawn.index(' d="M') + 5
     end = drawn.index('"', first)
@@ -77,5 +77,5 @@ def test_a_plot_is_compared_with_its_recipe_gone_through_the_same(tmp_path: Path
     plotted.write_text(drawn[:first] + "1 1L9 9" + drawn[end:])
     assert (
         "the lines of the file and of the recipe differ"
-        in CliRunner().invoke(cli, ["check", str(plotted)]).output
+        in runner().invoke(cli, ["check", str(plotted)]).stderr
     )

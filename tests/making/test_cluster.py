@@ -14,11 +14,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from click.testing import CliRunner
 
 from batik_vector.command.cli import cli
 from batik_vector.errors import MissingLibraryError
 from batik_vector.making import cluster
+from tests.calling import runner
 from tests.making.test_sweeping import RECIPE, held
 from tests.thorough import examples, long
 
@@ -37,15 +37,15 @@ def scheduler() -> Iterator[tuple[str, Any]]:
     """The address of a scheduler with two worker processes, and the cluster itself."""
     distributed = pytest.importorskip("distributed")
     with distributed.LocalCluster(
-        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, silence_logs=50
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address="127.0.0.1:0", silence_logs=50
     ) as begun:
         yield begun.scheduler_address, begun
 
 
 def called(*words: str) -> str:
-    result = CliRunner().invoke(cli, [*ASKED, *words])
-    assert result.exit_code == 0, result.output
-    return result.output
+    result = runner().invoke(cli, [*ASKED, *words])
+    assert result.exit_code == 0, result.stderr
+    return result.stderr
 
 
 @long
@@ -76,18 +76,18 @@ def test_another_version_on_a_worker_is_told(
     desk: Path, scheduler: tuple[str, Any], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(cluster, "__version__", "99")
-    result = CliRunner().invoke(cli, [*ASKED, "--scheduler", scheduler[0]])
+    result = runner().invoke(cli, [*ASKED, "--scheduler", scheduler[0]])
     assert result.exit_code == 2
-    assert "expected 99" in result.output
+    assert "expected 99" in result.stderr
     assert not list(Path("dots-sweep").glob("*.svg"))
 
 
 def test_where_nobody_answers_that_is_told(desk: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("distributed")
     monkeypatch.setattr(cluster, "ANSWER", 0.2)
-    result = CliRunner().invoke(cli, [*ASKED, "--scheduler", "tcp://127.0.0.1:9"])
+    result = runner().invoke(cli, [*ASKED, "--scheduler", "tcp://127.0.0.1:9"])
     assert result.exit_code == 2
-    assert "--scheduler tcp://127.0.0.1:9: nobody answers there" in result.output
+    assert "--scheduler tcp://127.0.0.1:9: nobody answers there" in result.stderr
     assert not Path("dots-sweep").exists()
 
 

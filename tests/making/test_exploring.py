@@ -9,7 +9,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapely
-from click.testing import CliRunner
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -19,6 +18,7 @@ from batik_vector.command.cli import cli
 from batik_vector.errors import RecipeError
 from batik_vector.fields import Between
 from batik_vector.making.exploring import Floor, Knob, knobs
+from tests.calling import runner
 
 SAMPLES = Path(__file__).parents[2] / "samples"
 STAR = """
@@ -118,8 +118,8 @@ def test_variations_are_the_same_for_a_seed_on_any_number_of_cores_and_all_hold(
             name,
             *more,
         ]
-        result = CliRunner().invoke(cli, call)
-        assert result.exit_code == 0, result.output
+        result = runner().invoke(cli, call)
+        assert result.exit_code == 0, result.stderr
     held = [{path.name: path.read_bytes() for path in Path(each).iterdir()} for each in "abc"]
     assert held[0] == held[1] != held[2]
     drawn = sorted(Path("a").glob("star_random-0-?.svg"))
@@ -136,12 +136,12 @@ def test_where_too_few_hold_the_reason_is_told(tmp_path: Path, monkeypatch: pyte
     monkeypatch.chdir(tmp_path)
     Path("star.toml").write_text(STAR)
     for option in ("--least=nan", "--least=inf", "--reach=nan"):
-        result = CliRunner().invoke(cli, ["random", "star.toml", "-n", "2", option])
+        result = runner().invoke(cli, ["random", "star.toml", "-n", "2", option])
         assert result.exit_code == 2
-        assert f"{option[8:]} is no number that is finite" in result.output
-    result = CliRunner().invoke(cli, ["random", "star.toml", "-n", "2", "--least", "30"])
+        assert f"{option[8:]} is no number that is finite" in result.stderr
+    result = runner().invoke(cli, ["random", "star.toml", "-n", "2", "--least", "30"])
     assert result.exit_code == 2
     assert (
-        "of 24 variations 0 hold, expected 2: most often 100% of wax is narrower than 30 mm" in result.output
+        "of 24 variations 0 hold, expected 2: most often 100% of wax is narrower than 30 mm" in result.stderr
     )
     assert not Path("star-random").exists()

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pikepdf
 import pytest
-from click.testing import CliRunner, Result
+from click.testing import Result
 from PIL import Image
 
 from batik_vector import sweep
@@ -21,6 +21,7 @@ from batik_vector.command.cli import cli
 from batik_vector.command.sweeps import SHEET_FORMATS
 from batik_vector.errors import RecipeError
 from batik_vector.making import sheets
+from tests.calling import runner
 from tests.thorough import examples, long
 
 RECIPE = """
@@ -45,13 +46,13 @@ def desk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def called(*words: str) -> Result:
-    return CliRunner().invoke(cli, ["sweep", "dots.toml", *words])
+    return runner().invoke(cli, ["sweep", "dots.toml", *words])
 
 
 def good(*words: str) -> str:
     result = called(*words)
-    assert result.exit_code == 0, result.output
-    return result.output
+    assert result.exit_code == 0, result.stderr
+    return result.stderr
 
 
 def held(folder: str) -> dict[str, bytes]:
@@ -62,7 +63,7 @@ def test_every_combination_is_a_file_whose_name_says_it(desk: Path) -> None:
     assert "6 variants made" in good("--vary", "elements.count=3,4,5", "--vary", "place.width=10mm:20mm:2")
     names = sorted(path.name for path in Path("dots-sweep").glob("*.svg"))
     assert names == [f"dots_count-{count}_width-{width}-mm.svg" for count in (3, 4, 5) for width in (10, 20)]
-    recompiled = CliRunner().invoke(cli, ["compile", "dots-sweep/" + names[0], "-o", "again"])
+    recompiled = runner().invoke(cli, ["compile", "dots-sweep/" + names[0], "-o", "again"])
     assert recompiled.exit_code == 0
     assert (Path("again") / names[0]).read_bytes() == (Path("dots-sweep") / names[0]).read_bytes()
 
@@ -119,8 +120,8 @@ def test_what_cannot_be_made_is_told_at_the_end_and_keeps_back_nothing(desk: Pat
 )
 def test_wrong_calls_are_told_and_write_nothing(desk: Path, words: tuple[str, ...], told: str) -> None:
     result = called(*words)
-    assert result.exit_code == 2, result.output
-    assert told in result.output
+    assert result.exit_code == 2, result.stderr
+    assert told in result.stderr
     assert sorted(os.listdir()) == ["dots.toml"]
 
 
@@ -190,19 +191,19 @@ def test_many_recipes_are_compiled_on_several_cores_by_a_pattern(desk: Path) -> 
     for name in ("a1", "a2", "b1"):
         Path(f"{name}.toml").write_text(RECIPE.replace("Dots", name))
     Path("a3.toml").write_text(RECIPE.replace('width = "20 mm"', 'width = "20 mm"\nscale = 3'))
-    result = CliRunner().invoke(cli, ["compile", "a?.toml", "b1.toml", "-o", "one"])
+    result = runner().invoke(cli, ["compile", "a?.toml", "b1.toml", "-o", "one"])
     assert result.exit_code == 2  # a3 is wrong, and nothing is written
     Path("a3.toml").unlink()
     for workers in ("1", "2"):
-        result = CliRunner().invoke(
+        result = runner().invoke(
             cli, ["compile", "a?.toml", "b1.toml", "-o", workers, "-j", workers, "--json"]
         )
-        assert result.exit_code == 0, result.output
+        assert result.exit_code == 0, result.stderr
         assert len(json.loads(result.stdout)["recipes"]) == 3
     assert held("1") == held("2")
     assert sorted(held("1")) == ["a1.svg", "a2.svg", "b1.svg"]
-    missing = CliRunner().invoke(cli, ["compile", "c*.toml"])
-    assert "c*.toml: no such file" in missing.output
+    missing = runner().invoke(cli, ["compile", "c*.toml"])
+    assert "c*.toml: no such file" in missing.stderr
     assert missing.exit_code == 2
 
 
@@ -221,12 +222,10 @@ def test_in_python_variants_come_one_by_one_with_their_errors(desk: Path) -> Non
 
 
 def test_variants_are_saved_in_the_library_when_asked(desk: Path) -> None:
-    result = CliRunner().invoke(
+    result = runner().invoke(
         cli, ["--library", "l.db", "sweep", "dots.toml", "--vary", "elements.count=3,4", "--into-library"]
     )
-    assert result.exit_code == 0, result.output
-    compiled = CliRunner().invoke(
-        cli, ["--library", "l.db", "compile", "library:dots_count-4", "-o", "again"]
-    )
-    assert compiled.exit_code == 0, compiled.output
+    assert result.exit_code == 0, result.stderr
+    compiled = runner().invoke(cli, ["--library", "l.db", "compile", "library:dots_count-4", "-o", "again"])
+    assert compiled.exit_code == 0, compiled.stderr
     assert Path("again/dots_count-4.svg").read_bytes() == Path("dots-sweep/dots_count-4.svg").read_bytes()
