@@ -13,7 +13,6 @@ from functools import partial
 import numpy as np
 
 from batik_vector.geometry.outlines import Outlines
-from batik_vector.machines import Machine
 from batik_vector.processes.cutting.arclength import ways
 from batik_vector.processes.cutting.knife import Knife, holder, shut
 from batik_vector.processes.cutting.starts import begun
@@ -23,7 +22,7 @@ from benchmarks.peers.drawn import often, tell
 from benchmarks.trailing import CORNERS, OFFSET_MM, off, stars
 
 TOLERANCE_MM = 0.01
-ASKED = told(CutProcess(blade_offset=OFFSET_MM), Machine(), TOLERANCE_MM)
+ASKED = told(CutProcess(blade_offset=OFFSET_MM), TOLERANCE_MM)
 """All that the process does by default: the start of a cut and its overcut."""
 
 

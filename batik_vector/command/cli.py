@@ -206,12 +206,16 @@ def _tell_files(done: dict[str, Any]) -> None:
     from batik_vector.command.process_reports import told_of
     from batik_vector.command.reports import made_of
 
+    before: list[str] = []
     for file in done["files"]:
         width, height = (f"{side:g}" for side in file["size_mm"])
         size = _bytes(file["bytes"])
         click.echo(f"{file['path']}  {size}  {width} × {height} mm  {file['seconds']:.2f} s", err=True)
-        for words in told_of(file.get("process", {})):
-            click.echo(f"  {words}", err=True)
+        # What went through the same takes the same: that is told once.
+        lines = [f"  {words}" for words in told_of(file.get("process", {}))]
+        for words in lines if lines != before else ():
+            click.echo(words, err=True)
+        before = lines or before
     for words in done["warnings"]:
         click.echo(f"{done['recipe']}: warning: {words}", err=True)
     for words in made_of(done):

@@ -58,20 +58,18 @@ def _cuts(facts: Facts) -> str:
         return "nothing is left to cut"
     contours = _counted(facts["contours"], "contour", "contours")
     tabs = f", {_counted(facts['tabs'], 'tab', 'tabs')}" if facts["tabs"] else ""
-    return (
-        f"{contours}{tabs}, {metres(facts['cut_mm'])} cut, {metres(facts['travel_mm'])} between them, "
-        f"about {duration(facts['seconds'])}"
-    )
+    return f"{contours}{tabs}, {metres(facts['cut_mm'])} cut, {_way(facts)}"
 
 
 def _work(facts: Facts) -> str:
     if not facts["strokes"]:
         return "nothing is left to draw"
     strokes = _counted(facts["strokes"], "stroke", "strokes")
-    return (
-        f"{strokes}, {metres(facts['drawn_mm'])} drawn, {metres(facts['travel_mm'])} between them, "
-        f"about {duration(facts['seconds'])}"
-    )
+    return f"{strokes}, {metres(facts['drawn_mm'])} drawn, {_way(facts)}"
+
+
+def _way(facts: Facts) -> str:
+    return f"{metres(facts['travel_mm'])} between them, about {duration(facts['seconds'])}"
 
 
 def _changes(count: int) -> str:

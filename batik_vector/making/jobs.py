@@ -26,7 +26,7 @@ from batik_vector.errors import (
 from batik_vector.export import FORMATS, write_all_whole
 from batik_vector.machines.profile import LANGUAGES
 from batik_vector.making.facts import facts_of, page_warnings, warnings
-from batik_vector.making.pages import Part, divided, drawings_of, piece_of, render_output, size_of
+from batik_vector.making.pages import Latest, Part, divided, drawings_of, piece_of, render_output, size_of
 from batik_vector.recipe.loading import load_recipe, located
 from batik_vector.recipe.model import OutputSpec, Recipe
 from batik_vector.recipe.outputs import OUTPUTS, Piece
@@ -263,16 +263,17 @@ def run(job: Job, tell: Callable[[str], None], look: Callable[[Page], None] | No
     if look is not None and shown is not None:
         look(shown)
     reports: list[dict[str, Any]] = []
-    writers = []
+    writers, latest = [], Latest()
     notes = [] if tile is None else warnings(recipe, tile)
     for path, output in job.files:
         page: Page | None = cloth if piece_of(recipe, output) == Piece.YARDAGE else tile
         if page is not None:
             with _on_behalf(job, key := _key_of(job, output)):
-                parts = divided(page, output)
+                parts = divided(page, output, latest)
             for part in parts:
                 place = path.with_name(f"{path.stem}{part.ending}{path.suffix}")
-                writers.append((place, _writer(job, place, key, part, size_of(page, output), tell, reports)))
+                size = size_of(page, output)
+                writers.append((place, _writer(job, place, key, part, size, tell, reports, latest)))
             notes += page_warnings(path, output, page)
     _check_apart(job, writers)
     _write(writers)
@@ -308,6 +309,7 @@ def _writer(
     size: list[float],
     tell: Callable[[str], None],
     reports: list[dict[str, Any]],
+    latest: Latest,
 ) -> Callable[[BinaryIO], None]:
     """Return what writes a file, and reports that it has."""
 
@@ -315,7 +317,7 @@ def _writer(
         begun = time.perf_counter()
         tell(f"writing {path.name}")
         with _on_behalf(job, key):
-            facts = render_output(part.page, part.output, sink)
+            facts = render_output(part.page, part.output, sink, latest)
         if part.facts is not None:
             facts = part.facts
         reports.append(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, BinaryIO
@@ -19,6 +19,8 @@ from batik_vector.values import frozen
 
 if TYPE_CHECKING:
     from batik_vector.importing.drawing.marks import Drawing
+    from batik_vector.processes.options import ProcessSpec
+    from batik_vector.processes.prepared import Prepared
 
 
 def piece_of(recipe: Recipe, output: OutputSpec) -> Piece:
@@ -46,7 +48,23 @@ class Part:
     facts: Mapping[str, Any] | None = None
 
 
-def divided(page: Page, output: OutputSpec) -> list[Part]:
+class Latest:
+    """The last page that went through processes: the next file of a recipe often asks for the same."""
+
+    def __init__(self) -> None:
+        self._asked: tuple[Page, tuple[ProcessSpec, ...], Machine] | None = None
+        self._done: tuple[Prepared, Mapping[str, Any]] | None = None
+
+    def through(self, page: Page, output: OutputSpec) -> tuple[Prepared, Mapping[str, Any]]:
+        """Return a page as the processes of an output, one at least, leave it, and what they report."""
+        asked = page, output.process, output.machine_profile or Machine()
+        known = self._asked
+        if self._done is None or known is None or known[0] is not page or known[1:] != asked[1:]:
+            self._done, self._asked = _through(*asked), asked
+        return self._done
+
+
+def divided(page: Page, output: OutputSpec, latest: Latest) -> list[Part]:
     """Return the files of an output: one, unless its format divides what is too large for it.
 
     What is divided goes through its processes first, once for all parts.
@@ -54,7 +72,7 @@ def divided(page: Page, output: OutputSpec) -> list[Part]:
     kind = FORMATS[output.format]
     if not kind.divides(output.options):
         return [Part(page, output)]
-    page, facts = _finished(page, output)
+    page, facts = _finished(page, output, latest)
     done, told = replace(output, process=()), facts if output.process else None
     parts = kind.parts(page, output.options)
     if not parts:
@@ -62,7 +80,7 @@ def divided(page: Page, output: OutputSpec) -> list[Part]:
     return [Part(page, replace(done, **own), f"-{name}", told) for name, own in parts]
 
 
-def render_output(page: Page, output: OutputSpec, sink: BinaryIO) -> Mapping[str, Any]:
+def render_output(page: Page, output: OutputSpec, sink: BinaryIO, latest: Latest) -> Mapping[str, Any]:
     """Write a file: a cloth, or the tile repeated or carried beyond its edges as the output asks.
 
     What the compiler made is in the normal form, and is not asked again.
@@ -70,30 +88,39 @@ def render_output(page: Page, output: OutputSpec, sink: BinaryIO) -> Mapping[str
     Returns:
         What the processes that it went through have to report.
     """
-    page, facts = _finished(page, output)
+    page, facts = _finished(page, output, latest)
     write_page(page, sink, output.format, output.options, check=False)
     return facts
 
 
-def _finished(page: Page, output: OutputSpec) -> tuple[Page, Mapping[str, Any]]:
+def _finished(page: Page, output: OutputSpec, latest: Latest) -> tuple[Page, Mapping[str, Any]]:
     """Return a page as an output shows it and its processes leave it, and what these have to report."""
     if isinstance(page, Artwork):
         page = _set_out(page, getattr(output, "repeat", (1, 1)), getattr(output, "bleed", 0.0))
-    return prepared(page, output)
+    return prepared(page, output, latest)
 
 
-def prepared(page: Page, output: OutputSpec) -> tuple[Page, Mapping[str, Any]]:
+def prepared(page: Page, output: OutputSpec, latest: Latest | None = None) -> tuple[Page, Mapping[str, Any]]:
     """Return a page as the processes of an output leave it, and what these have to report."""
     if not output.process:
         return page, {}
+    done, facts = (latest or Latest()).through(page, output)
+    if not getattr(output, "travel", False):
+        return done, facts
     from batik_vector.processes.travel import with_travel
 
+    return with_travel(done), facts
+
+
+def _through(
+    page: Page, processes: Sequence[ProcessSpec], machine: Machine
+) -> tuple[Prepared, Mapping[str, Any]]:
     facts: dict[str, Any] = {}
-    for number, process in enumerate(output.process):
-        with _keyed(f"process[{number}]" if len(output.process) > 1 else "process"):
-            page = done = process.apply(page, output.machine_profile or Machine())
+    for number, process in enumerate(processes):
+        with _keyed(f"process[{number}]" if len(processes) > 1 else "process"):
+            page = done = process.apply(page, machine)
         facts |= done.facts
-    return (with_travel(done) if getattr(output, "travel", False) else page), facts
+    return done, facts
 
 
 @contextmanager

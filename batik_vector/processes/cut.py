@@ -30,9 +30,8 @@ def apply(page: Page, spec: CutProcess, machine: Machine) -> Prepared:
         GeometryError: where the tool cannot cut what is drawn, with the key and the value that would do.
         ExportError: where the page is too large.
     """
-    asked = told(spec, machine, page.tolerance)
-    motion = machine.motion
-    pace = Pace(motion.draw_speed, motion.travel_speed, motion.acceleration, motion.lift)
+    asked = told(spec, page.tolerance)
+    pace = Pace.of(machine.motion)
     tools, facts = list[Tool](), list[dict[str, Any]]()
     for stock in stocks_of(page, asked):
         laid, sheet = nested(stock, asked)

@@ -46,18 +46,18 @@ def apply(page: Page, spec: PlotProcess, machine: Machine) -> Prepared:
     """
     layers = whole_page(page)
     tools = [
-        Tool(plate.ink, _strokes(page, plate, areas, lines, spec, machine), pen, plate.guide)
+        Tool(plate.ink, _strokes(page, plate, areas, lines, spec), pen, plate.guide)
         for (plate, areas, lines), pen in zip(layers, _pens(layers, spec.pens), strict=True)
     ]
     facts: dict[str, Any] = {}
     if spec.hatch:
-        facts["unreached_mm2"] = _unreached(layers, spec, machine)
+        facts["unreached_mm2"] = _unreached(layers, spec)
     if spec.hidden is Hidden.REMOVE:
         tools, facts["hidden_mm"] = _seen(tools, layers, round(spec.margin * STEPS_PER_MM))
     # Guides come last; inks that share a pen stay in the order of painting.
     tools.sort(key=lambda tool: (tool.guide, tool.pen))
     tools, facts["doubled"] = _once(tools, spec.once)
-    tools = [_in_order(tool, spec, machine) for tool in tools]
+    tools = [_in_order(tool, spec) for tool in tools]
     facts |= _costs(tools, machine.motion)
     return Prepared(page, tuple(tools), (*page.provenance.processes, str(spec)), {"plot": facts})
 
@@ -74,12 +74,10 @@ def _pens(layers: Layers, chosen: Mapping[str, int]) -> list[int]:
     return [pen or (0 if plate.guide else next(free)) for plate, pen in zip(plates, told, strict=True)]
 
 
-def _strokes(
-    page: Page, plate: Plate, areas: Outlines, lines: Outlines, spec: PlotProcess, machine: Machine
-) -> Outlines:
+def _strokes(page: Page, plate: Plate, areas: Outlines, lines: Outlines, spec: PlotProcess) -> Outlines:
     """Return the outlines of areas or what fills them, and lines, one to a mark."""
     if spec.hatch and not plate.guide:
-        return together([hatched(areas, spec.hatch, _width(plate.ink, spec, machine)), *contours([lines])])
+        return together([hatched(areas, spec.hatch, _width(plate.ink, spec)), *contours([lines])])
     outlines = together(list(contours([areas])))
     if not spec.edges:
         cell, bleed = page.cell, round(page.bleed * STEPS_PER_MM)
@@ -89,12 +87,12 @@ def _strokes(
     return together([outlines, *contours([lines])])
 
 
-def _unreached(layers: Layers, spec: PlotProcess, machine: Machine) -> float:
+def _unreached(layers: Layers, spec: PlotProcess) -> float:
     """Return how many mm² of areas are too narrow for the pens that fill them."""
     assert spec.hatch
     return round(
         math.fsum(
-            unreached(areas, spec.hatch, _width(plate.ink, spec, machine))
+            unreached(areas, spec.hatch, _width(plate.ink, spec))
             for plate, areas, _ in layers
             if not plate.guide
         ),
@@ -150,21 +148,21 @@ def _some(strokes: Outlines, first: int, stop: int) -> Outlines:
     return strokes.taken(np.arange(first, stop))
 
 
-def _in_order(tool: Tool, spec: PlotProcess, machine: Machine) -> Tool:
+def _in_order(tool: Tool, spec: PlotProcess) -> Tool:
     """Return a tool with its strokes joined, in order, and as broad as the pen draws them."""
     strokes = longest(tool.strokes) if spec.join and not tool.guide else tool.strokes
-    ink = tool.ink if tool.guide else replace(tool.ink, width=_width(tool.ink, spec, machine))
+    ink = tool.ink if tool.guide else replace(tool.ink, width=_width(tool.ink, spec))
     return replace(tool, ink=ink, strokes=together(list(ordered([strokes]))))
 
 
-def _width(ink: Ink, spec: PlotProcess, machine: Machine) -> float:
+def _width(ink: Ink, spec: PlotProcess) -> float:
     """Return how broad a pen draws, in mm."""
-    return spec.width or machine.tool.width or ink.width
+    return spec.width or ink.width
 
 
 def _costs(tools: Sequence[Tool], motion: Motion) -> dict[str, Any]:
     """Return the way and the time that drawing takes, of all pens together and of each."""
-    pace = Pace(motion.draw_speed, motion.travel_speed, motion.acceleration, motion.lift)
+    pace = Pace.of(motion)
     drawing = [tool for tool in tools if not tool.guide]
     each = [(tool, taken(tool.strokes, pace)) for tool in drawing]
     busy = [tool.pen for tool in drawing if len(tool.strokes)]

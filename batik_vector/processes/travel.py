@@ -14,10 +14,12 @@ NAME, COLOUR = "travel", "#e8502e"
 """A red that shows on undyed cotton as on indigo."""
 THIN = 1 / 1000
 """Breadth of a way over the longer side of the page: a hair in any picture of it."""
+LEAST = 2.5
+"""Breadth of a stroke over that of a way, at least."""
 
 
 def with_travel(page: Prepared) -> Prepared:
-    """Return a page with its ways in a layer on top that no tool draws.
+    """Return a page to be looked at, with its ways in a layer on top that no tool draws.
 
     Each tool begins at the page's corner (0, 0), as :func:`ways` has it.
     """
@@ -25,7 +27,10 @@ def with_travel(page: Prepared) -> Prepared:
     found = together([_lines(ways(tool.strokes)) for tool in drawn])
     longer = max(page.cell.width, page.cell.height)
     ink = Ink(NAME, COLOUR, max(round(longer * THIN, 3), 0.01))
-    return replace(page, tools=(*page.tools, Tool(ink, found, guide=True)))
+    # Hairs for a cutter would be lost beside them.
+    least = LEAST * ink.width
+    tools = [replace(each, ink=replace(each.ink, width=max(each.ink.width, least))) for each in page.tools]
+    return replace(page, tools=(*tools, Tool(ink, found, guide=True)))
 
 
 def ways(strokes: Outlines) -> Steps:

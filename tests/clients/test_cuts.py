@@ -12,7 +12,7 @@ import shapely
 from ezdxf.filemanagement import readfile
 
 from batik_vector.compiling.compiler import compile_recipe
-from batik_vector.export import GcodeOptions, SvgOptions, gcode, render
+from batik_vector.export import GcodeOptions, HpglOptions, SvgOptions, Turn, gcode, render
 from batik_vector.geometry.outlines import to_polylines
 from batik_vector.processes.options import CutProcess
 from batik_vector.processes.prepared import Prepared
@@ -31,6 +31,10 @@ CUTS = {
 }
 
 
+MARGIN = 10.0
+"""Room about the page, in mm, for what a cut draws outside of it."""
+
+
 @functools.cache
 def prepared(name: str) -> Prepared:
     machine, told = CUTS[name]
@@ -46,6 +50,14 @@ def cut(request: pytest.FixtureRequest) -> Prepared:
 def lines_of(page: Prepared) -> list[np.ndarray]:
     """Return the strokes of each tool as lines in mm, those that are closed coming back."""
     return [to_polylines(tool.strokes, 1000) for tool in page.tools]
+
+
+def lengths(strokes: programs.Plotted) -> dict[int, float]:
+    """Return how much each pen draws, in units."""
+    found: dict[int, float] = {}
+    for pen, points in strokes:
+        found[pen] = found.get(pen, 0.0) + float(np.hypot(*np.diff(np.array(points), axis=0).T).sum())
+    return found
 
 
 def same(found: list[shapely.LineString], told: np.ndarray, near: float) -> None:
@@ -100,3 +112,18 @@ def test_an_interpreter_of_gcode_follows_a_cut(tmp_path: Path) -> None:
     strokes, said = followed(gcode.render(page, GcodeOptions(machine_profile=profile)), tmp_path)
     assert "PROGRAM_END()" in said
     same([shapely.LineString(stroke.points) for stroke in strokes], lines_of(page)[0], 0.001)
+
+
+@pytest.mark.parametrize("machine", ["hpgl", "graphtec-ce6000-60"])
+def test_readers_of_hpgl_follow_a_cut(cut: Prepared, tmp_path: Path, machine: str) -> None:
+    path = tmp_path / "cut.hpgl"
+    # The first cut and the marks stand outside the page.
+    options = HpglOptions(device=read_machine(machine).hpgl_device, margin=MARGIN, turn=Turn.NONE)
+    path.write_bytes(render(cut, "hpgl", options))
+    unit = read_machine(machine).hpgl.unit
+    strokes = programs.ezhpgl(path)
+    for pen, told in enumerate(lines_of(cut), start=1):
+        found = [np.array(each) * unit - MARGIN for number, each in strokes if number == pen]
+        same([shapely.LineString(each) for each in found], told, unit)
+    # hp2xx moves what it writes to the corner, and lifts the pen within strokes.
+    assert lengths(programs.hp2xx(path)) == pytest.approx(lengths(strokes), rel=1e-6)

@@ -121,3 +121,26 @@ def test_what_a_process_refuses_is_told_by_its_key(tmp_path: Path, monkeypatch: 
     assert "output[0].process.join: true, expected false" in told.stderr
     assert re.search(r"kawung\.toml:\d+: ", told.stderr)
     assert not list(tmp_path.glob("out/*"))
+
+
+def test_files_that_ask_for_the_same_go_through_it_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    seen: list[str] = []
+    apply = PlotProcess.apply
+
+    def counted(self: PlotProcess, page: Page, machine: Machine) -> Prepared:
+        seen.append(str(self.resolved(machine)))
+        return apply(self, page, machine)
+
+    monkeypatch.setattr(PlotProcess, "apply", counted)
+    recipe = tmp_path / "kawung.toml"
+    plot = 'process = { kind = "plot" }'
+    tables = [f'format = "{each}"\n{plot}' for each in ("svg", "dxf", "pdf")]
+    tables.append(f'format = "gcode"\nmachine = "pen-plotter"\n{plot}')
+    recipe.write_text(
+        (SAMPLES / "kawung.toml").read_text() + "".join(f"[[output]]\n{each}\n" for each in tables)
+    )
+    done = runner().invoke(cli, ["compile", str(recipe), "-o", str(tmp_path)])
+    assert seen == ["plot", "plot width=0.4"]
+    assert done.stderr.count(" drawn, ") == 6, "told once for each of the two, of both pens and together"

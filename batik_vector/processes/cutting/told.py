@@ -10,7 +10,6 @@ from batik_vector.units import STEPS_PER_MM
 from batik_vector.values import frozen
 
 if TYPE_CHECKING:
-    from batik_vector.machines import Machine
     from batik_vector.processes.options import CutProcess
 
 OVERCUT = 1.0
@@ -58,22 +57,21 @@ class Told:
         return 2 * (self.registration or 0)
 
 
-def told(spec: CutProcess, machine: Machine, tolerance: float) -> Told:
-    """Return what is asked, and what the machine and the defaults say where nothing is.
+def told(spec: CutProcess, tolerance: float) -> Told:
+    """Return what is asked, and what the defaults say where nothing is.
 
     Args:
-        spec: what the recipe says.
-        machine: whose tool it is.
+        spec: what the recipe says, and where it says nothing the machine.
         tolerance: how far drawn edges may stand from the true curves, in mm.
     """
-    blade = _first(spec.blade_offset, machine.tool.blade_offset, 0.0)
+    blade = spec.blade_offset or 0.0
     start = spec.start or (Start.STRAIGHT if blade else Start.NEAREST)
     return Told(
         inks=spec.inks,
         lines=spec.lines,
         keep=spec.keep,
         narrow=spec.narrow,
-        kerf=_steps(_first(spec.kerf, machine.tool.kerf, 0.0)),
+        kerf=_steps(spec.kerf or 0.0),
         blade_offset=_steps(blade),
         corner=math.radians(spec.corner),
         sag=min(SAG, LOOSE * tolerance) * STEPS_PER_MM,

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from batik_vector.geometry.outlines import Outlines, Steps
+from batik_vector.machines import Motion
 from batik_vector.processes.ordering.distances import PARTS, distances
 from batik_vector.units import STEPS_PER_MM
 from batik_vector.values import frozen
@@ -36,6 +37,11 @@ class Pace:
     travel: float
     acceleration: float = 0.0
     lift: float = 0.0
+
+    @classmethod
+    def of(cls, motion: Motion) -> Pace:
+        """Return how fast a machine of that profile goes."""
+        return cls(motion.draw_speed, motion.travel_speed, motion.acceleration, motion.lift)
 
 
 @frozen
