@@ -29,7 +29,7 @@ def in_python(*_, **__):
     print("begun", flush=True)
     while True: pass
 
-def writing(page, output, sink):
+def writing(page, output, sink, *_):
     sink.write(b"x" * (files.BUFFER + 1))
     in_geos()
 
