@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from batik_vector.artwork import Cell, Geometries, Ink, Layer, Overlap
 from batik_vector.importing.document import Document
 from batik_vector.importing.fills import filled
+from batik_vector.importing.pens import bodies
 from batik_vector.importing.polylines import Lines
 from batik_vector.importing.scene import Shape
 from batik_vector.units import STEPS_PER_MM, format_mm
@@ -192,6 +193,14 @@ def _on_page(document: Document, marks: Marks, cell: Cell, bleed: float) -> Mark
 
     areas = seen(marks.areas, np.full(len(marks.areas), -PAGE_SLACK_MM))
     lines = seen(marks.lines, breadth[marks.line_shape])
+    # A sharp corner reaches further than half a breadth: where it might be the one thing on the page, the
+    # whole body is looked at.
+    mitred = np.array([shape.pen.limit if shape.pen.join == "mitre" else 1.0 for shape in marks.shapes])
+    near = np.flatnonzero(seen(marks.lines, (breadth * mitred)[marks.line_shape]) & ~lines)
+    for row, number in zip(near.tolist(), marks.line_shape[near].tolist(), strict=True):
+        shape = marks.shapes[number]
+        body, _ = bodies(marks.lines[row : row + 1], shape.width, shape.pen, PAGE_SLACK_MM)
+        lines[row] = seen(body, np.zeros(len(body))).any()
     away = int((~areas).sum() + (~lines).sum())
     if away:
         document.note(f"{away:,} marks lie wholly outside the page and are left out")
