@@ -34,7 +34,7 @@ from tools.house import (
     room_of,
 )
 
-MOST_FILES, MOST_ROOMS, FULL = 10, 18, 26
+MOST_FILES, MOST_ROOMS, FULL = 10, 19, 26
 """How many files and rooms the package's top may hold, and how many files a room."""
 
 MODULES = modules()
@@ -64,7 +64,7 @@ def test_every_room_has_a_floor() -> None:
         rooms = {room_of(name_of(path), wing) for path in paths} - ({"__init__"} if wing else set())
         assert rooms <= set().union(*known), f"give these a floor in {Path(__file__).name}"
         assert rooms >= set().union(*known), "a floor without a room"
-    assert len(FLOORS) <= 15
+    assert len(FLOORS) <= 16
 
 
 @pytest.mark.parametrize("path", MODULES, ids=name_of)

@@ -44,6 +44,7 @@ FLOORS: Floors = _floors(
     "making",
     "__init__",
     "library",
+    "studio",
     "command",
     "__main__",
 )

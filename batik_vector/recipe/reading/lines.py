@@ -7,9 +7,10 @@ import functools
 import re
 import tomllib
 from bisect import bisect_right
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from batik_vector.recipe.references import EVERY, Path
+from batik_vector.values import frozen
 
 _BLANK = re.compile(r"[ \t\r\n]*+(?:#[^\n]*+[ \t\r\n]*+)*")
 _SPACE = re.compile(r"[ \t]*+")
@@ -32,6 +33,7 @@ class _Scanner:
         self.at = 0
         self.starts: dict[Path, int] = {}
         self.values: dict[Path, tuple[int, int]] = {}
+        self.headers: list[tuple[int, Path]] = []
         self._counts: dict[Path, int] = {}
 
     def run(self) -> None:
@@ -69,6 +71,7 @@ class _Scanner:
             self._counts[path] = self._counts.get(path, 0) + 1
         path = self._latest(path)
         self._note(path, start)
+        self.headers.append((start, path))
         return path
 
     def _latest(self, path: Path) -> Path:
@@ -135,16 +138,36 @@ class _Scanner:
             self._skip(_BLANK)
 
 
+@frozen
+class Spans:
+    """Where what a text says stands in it, in characters.
+
+    Args:
+        starts: of the key or the header of each path.
+        values: of each value that is written in place, from its first character to past its last.
+        headers: the start of each, and the path of its table, in the order of the text.
+    """
+
+    starts: Mapping[Path, int]
+    values: Mapping[Path, tuple[int, int]]
+    headers: Sequence[tuple[int, Path]]
+
+
 @functools.lru_cache(maxsize=4)
-def value_spans(text: str) -> Mapping[Path, tuple[int, int]]:
-    """Return where each value stands that is written in place, from its first character to past its last.
+def spans(text: str) -> Spans:
+    """Return where all stands in a text that tomllib has accepted.
 
     Kept: of one recipe many variants are made.
     """
     scanner = _Scanner(text)
     with contextlib.suppress(IndexError, AssertionError, RecursionError, ValueError):
         scanner.run()
-    return scanner.values
+    return Spans(scanner.starts, scanner.values, scanner.headers)
+
+
+def value_spans(text: str) -> Mapping[Path, tuple[int, int]]:
+    """Return where each value stands that is written in place, from its first character to past its last."""
+    return spans(text).values
 
 
 class Lines:

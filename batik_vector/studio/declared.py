@@ -1,0 +1,119 @@
+"""What the recipe's declarations say of a place in it: its type, bounds, help, and what it is by default."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from typing import Any
+
+from batik_vector.recipe.model import Recipe
+from batik_vector.recipe.reading.field_types import Hint, Member, chosen, members, taken_apart
+from batik_vector.recipe.references import Path
+from batik_vector.values import frozen
+
+MISSING = object()
+"""Stands for what is not said, and has no default."""
+
+
+@frozen(eq=False)
+class Place:
+    """A place in a recipe.
+
+    Args:
+        hint: its type, with bounds and help.
+        default: what it is where nothing is said; ``MISSING`` where something must be.
+        said: what the recipe says there, or ``MISSING``.
+    """
+
+    hint: Hint
+    default: Any
+    said: Any
+
+
+def root(tables: Mapping[str, Any]) -> Place:
+    """Return the place of a whole recipe."""
+    return Place(taken_apart(Recipe), MISSING, tables)
+
+
+def place_at(tables: Mapping[str, Any], path: Path) -> Place | None:
+    """Return the place that a path leads to, or None where the declarations know none."""
+    place = root(tables)
+    for part in path:
+        found = inner(place, part)
+        if found is None:
+            return None
+        place = found
+    return place
+
+
+def inner(place: Place, part: str | int) -> Place | None:
+    """Return the place of a member: a key of a table, or one of a list."""
+    hint, said = place.hint, place.said
+    given = said[part] if _has(said, part) else MISSING
+    cls = class_of(place)
+    if cls is not None:
+        member = members(cls).get(str(part))
+        if member is None:
+            return None
+        return Place(member.hint, default_of(place, cls, str(part), member), given)
+    if isinstance(part, int) and hint.alone and isinstance(said, dict):
+        given = said if part == 0 else MISSING
+    item = hint.items[part] if isinstance(part, int) and part < len(hint.items) else hint.item
+    if item is None:
+        return None
+    held: Any = place.default
+    held = held[part] if _has(held, part) else MISSING
+    return Place(item, held, given)
+
+
+def class_of(place: Place) -> type | None:
+    """Return the dataclass that is read at a place: that of what the recipe says, or the default's."""
+    if isinstance(place.said, dict):
+        return chosen(place.hint, place.said)
+    if place.said is not MISSING:
+        return None
+    if dataclasses.is_dataclass(place.default):
+        return type(place.default)
+    # A table that there need not be.
+    return chosen(place.hint, {})
+
+
+def default_of(place: Place, cls: type, name: str, member: Member) -> Any:
+    """Return what a key is where it is left out: the table's own default where that is left out too."""
+    if place.said is MISSING and isinstance(place.default, cls):
+        return getattr(place.default, name)
+    return MISSING if member.required else member.default
+
+
+def _has(node: Any, part: Any) -> bool:
+    if isinstance(node, list | tuple):
+        return isinstance(part, int) and 0 <= part < len(node)
+    return isinstance(node, Mapping) and part in node
+
+
+def plain(hint: Hint, value: Any) -> Any:
+    """Return a default as a recipe would write it: numbers, words, lists and tables.
+
+    Of a table what is written is its kind, and what differs from the table's own defaults.
+    """
+    if dataclasses.is_dataclass(value) and not isinstance(value, type):
+        table: dict[str, Any] = {}
+        if hint.one_of is not None:
+            table = {hint.one_of.tag: kind_of(hint, type(value))}
+        for name, member in members(type(value)).items():
+            held = getattr(value, name)
+            if held is not None and (member.required or held != member.default):
+                table[name] = plain(member.hint, held)
+        return table
+    if isinstance(value, tuple | list):
+        each_hint = [hint.items[n] if n < len(hint.items) else hint.item or hint for n in range(len(value))]
+        return [plain(one, each) for one, each in zip(each_hint, value, strict=True)]
+    if isinstance(value, dict):
+        return {name: plain(hint.item or hint, each) for name, each in value.items()}
+    return str(value) if isinstance(value, str) else value
+
+
+def kind_of(hint: Hint, cls: type) -> str:
+    """Return the name that a catalogue has for a class."""
+    assert hint.one_of is not None
+    return next((name for name, known in hint.one_of.load().items() if known is cls), "")

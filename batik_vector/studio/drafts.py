@@ -1,0 +1,306 @@
+"""Drafts: a recipe's text as it is being worked at. A change makes a new draft, and the old one stays.
+
+    draft = Draft.read("kawung.toml")
+    draft = draft.with_value("motif.flower.petal.count", 12)
+
+A path is what ``--set`` takes: ``place[0].layout.dist``. Whatever changes, comments, order and the spelling
+of all else stay. A draft may say what no recipe may; :attr:`Draft.faults` tells, and nothing is lost.
+"""
+
+from __future__ import annotations
+
+import functools
+import os
+import tomllib
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from typing import Any, TypeAlias
+
+from batik_vector.errors import BatikError, Fault, RecipeError
+from batik_vector.recipe.loading import EMPTY, read_recipe
+from batik_vector.recipe.model import Recipe
+from batik_vector.recipe.reading.field_types import Hint
+from batik_vector.recipe.reading.lines import parse_path
+from batik_vector.recipe.reading.sources import parted, read_text, scheme_of, stem_of, with_carried
+from batik_vector.recipe.reading.tables import tables_of
+from batik_vector.recipe.references import Path, dotted
+from batik_vector.studio import rewriting
+from batik_vector.studio.declared import MISSING, Place, inner, place_at, plain
+from batik_vector.studio.spelling import as_written
+from batik_vector.units import parse_length
+from batik_vector.values import frozen
+
+Where: TypeAlias = str | Path
+"""A path as people write it, or taken apart."""
+
+
+@frozen
+class Draft:
+    """A recipe's text as it is being worked at.
+
+    Args:
+        text: the page of TOML, without drawings that it carries.
+        folder: where the files stand that it names; None where it stands nowhere.
+        locked: keys, or tables with all in them, that stay when values are made up; as ``--lock`` takes them.
+        drawings: SVGs by the names of their files, that it carries.
+        stem: what files of it are called.
+    """
+
+    text: str
+    folder: str | None = None
+    locked: tuple[str, ...] = ()
+    drawings: tuple[tuple[str, str], ...] = ()
+    stem: str = "untitled"
+
+    @staticmethod
+    def read(path: str | os.PathLike[str]) -> Draft:
+        """Return the draft of a file: a recipe, one compiled from it, or ``library:NAME``.
+
+        Raises:
+            RecipeError: where there is no text to be had.
+            LibraryError: where the library has no such pattern.
+        """
+        source = os.fspath(path)
+        own, drawings = parted(read_text(path))
+        folder = None if scheme_of(source)[0] else os.path.dirname(os.path.abspath(source))
+        return Draft(own, folder, drawings=tuple(drawings.items()), stem=stem_of(source))
+
+    @staticmethod
+    def of_text(text: str, stem: str = "untitled", folder: str | None = None) -> Draft:
+        """Return the draft of a text, as it is pasted or dropped; drawings behind it are taken off."""
+        own, drawings = parted(text.replace("\r\n", "\n"))
+        return Draft(own, folder, drawings=tuple(drawings.items()), stem=stem)
+
+    @functools.cached_property
+    def tables(self) -> dict[str, Any]:
+        """What the text says, as plain tables; not to be changed.
+
+        Raises:
+            RecipeError: where it is no TOML.
+        """
+        return tables_of(self.text, self.stem, EMPTY)
+
+    @functools.cached_property
+    def recipe(self) -> Recipe:
+        """The recipe, read as the command reads it.
+
+        Raises:
+            RecipeError: with everything that is wrong.
+        """
+        return read_recipe(self.text, self.stem, folder=self.folder, drawings=dict(self.drawings))
+
+    @functools.cached_property
+    def faults(self) -> tuple[Fault, ...]:
+        """What is wrong with the recipe before it is compiled, with keys and lines."""
+        try:
+            self.recipe  # noqa: B018
+        except RecipeError as error:
+            return error.faults
+        except BatikError as error:
+            return (Fault(str(error)),)
+        return ()
+
+    @property
+    def whole(self) -> str:
+        """The text with the drawings behind it, so that it compiles from itself alone."""
+        return with_carried(self.text, dict(self.drawings))
+
+    @property
+    def title(self) -> str:
+        """What the design is called; the stem where it does not say."""
+        try:
+            said = self.tables.get("title")
+        except RecipeError:
+            said = None
+        return said if isinstance(said, str) and said else self.stem
+
+    # Values.
+
+    def value(self, path: Where) -> Any:
+        """Return what the text says at a path, or None where it says nothing."""
+        node: Any = self.tables
+        for part in parsed(path):
+            try:
+                node = node[part]
+            except (LookupError, TypeError):
+                return None
+        return node
+
+    def with_text(self, text: str) -> Draft:
+        """Return the draft with another page of TOML, whatever it says."""
+        own, drawings = parted(text.replace("\r\n", "\n"))
+        return replace(self, text=own, drawings=tuple((dict(self.drawings) | drawings).items()))
+
+    def with_value(self, path: Where, value: Any) -> Draft:
+        """Return the draft with a value set, spelled as the one before: lengths keep their unit.
+
+        What stands around it and was left out is written with its defaults, so that nothing else changes.
+
+        Args:
+            path: of the value.
+            value: a number (lengths in mm), a word, a list or a table; None takes it out.
+
+        Raises:
+            RecipeError: where the text is no TOML, or the path leads nowhere.
+        """
+        where = parsed(path)
+        if value is None:
+            return self.without(where)
+        return self._rewritten(where, lambda: self._set(where, value))
+
+    def with_values(self, values: Mapping[Where, Any] | Sequence[tuple[Where, Any]]) -> Draft:
+        """Return the draft with several values set, one after the other."""
+        draft = self
+        for path, value in values.items() if isinstance(values, Mapping) else values:
+            draft = draft.with_value(path, value)
+        return draft
+
+    def _set(self, where: Path, value: Any) -> str:
+        place = place_at(self.tables, where)
+        if place is not None:
+            value = as_written(place.hint, value, None if place.said is MISSING else place.said)
+        for depth in range(1, len(where)):
+            around = place_at(self.tables, where[:depth])
+            if around is not None and around.said is MISSING and _is_known(around.default):
+                # The first that is not written is written with what it was by default.
+                table = plain(around.hint, around.default)
+                _put(table, around, where[depth:], value)
+                return rewriting.with_value(self.text, where[:depth], table)
+            if around is not None and around.said is MISSING and around.hint.items:
+                numbers: list[Any] = list(middle_of(self.tables) if where[depth - 1] == "at" else ())
+                numbers = numbers or [0] * len(around.hint.items)
+                numbers[int(where[depth])] = value
+                return rewriting.with_value(self.text, where[:depth], as_written(around.hint, numbers))
+        return rewriting.with_value(self.text, where, value)
+
+    def without(self, path: Where) -> Draft:
+        """Return the draft with a key taken out, so that it is what it is by default; or a member of a list.
+
+        A key that is not there is no fault.
+        """
+        where = parsed(path)
+        around = self.value(where[:-1]) if len(where) > 1 else self.tables
+        there = where[-1] in around if isinstance(around, dict) else self.value(where) is not None
+        return self._rewritten(where, lambda: rewriting.without(self.text, where)) if there else self
+
+    # Lists: elements, placements, outputs; and tables by name: motifs, inks.
+
+    def inserted(self, path: Where, value: Any, index: int | None = None, written: str = "") -> Draft:
+        """Return the draft with another member of a list, or a table by name, at a place among the others.
+
+        Args:
+            path: of the list, or of the new table: ``place``, ``motif.flower.elements``, ``ink.indigo``.
+            value: of the member.
+            index: its place; the end when left out.
+            written: how it is written, where that is known; see :meth:`copied`.
+
+        Raises:
+            RecipeError: where there is no such list, or the name is taken.
+        """
+        where = parsed(path)
+        by_name = len(where) == 2 and where[0] in ("motif", "ink", "drawing")
+        if by_name and self.value(where) is not None:
+            raise RecipeError([Fault("is there already: expected another name", dotted(where))])
+        if not by_name:
+            return self._rewritten(where, lambda: rewriting.inserted(self.text, where, value, index, written))
+        draft = self._rewritten(where, lambda: rewriting.with_value(self.text, where, value))
+        return draft if index is None else draft.moved(where, index)
+
+    def removed(self, path: Where) -> Draft:
+        """Return the draft without a member: ``place[1]``, ``ink.wax``, ``motif.flower.elements[0]``."""
+        return self.without(path)
+
+    def moved(self, path: Where, to: int) -> Draft:
+        """Return the draft with a member at another place among its like: of inks, that paints it earlier."""
+        where = parsed(path)
+        return self._rewritten(where, lambda: rewriting.moved(self.text, where, to))
+
+    def copied(self, path: Where = ()) -> str:
+        """Return a part of the recipe as text, to be pasted elsewhere: a member, or all of it."""
+        where = parsed(path) if path else ()
+        return rewriting.member_text(self.text, where) if where else self.whole
+
+    # What else a draft has.
+
+    def locking(self, path: Where, locked: bool = True) -> Draft:
+        """Return the draft with a key locked, or set free: values that are made up leave it alone."""
+        key = dotted(parsed(path))
+        kept = tuple(each for each in self.locked if each != key)
+        return replace(self, locked=(*kept, key) if locked else kept)
+
+    def is_locked(self, path: Where) -> bool:
+        """Return whether a key, or a table around it, is locked."""
+        where = parsed(path)
+        keys = {dotted(where[:depth]) for depth in range(1, len(where) + 1)}
+        return not keys.isdisjoint(self.locked)
+
+    def with_drawing(self, file: str, svg: str) -> Draft:
+        """Return the draft with an SVG that it carries, by the name that a motif's ``file`` has."""
+        return replace(self, drawings=tuple((dict(self.drawings) | {file: svg}).items()))
+
+    def _rewritten(self, where: Path, change: Any) -> Draft:
+        self.tables  # noqa: B018  (raises where the text is no TOML)
+        try:
+            return replace(self, text=change())
+        except (rewriting.CannotRewriteError, tomllib.TOMLDecodeError, LookupError, TypeError) as error:
+            raise RecipeError([Fault(str(error) or "leads nowhere", dotted(where))]) from error
+
+
+def parsed(path: Where) -> Path:
+    """Return a path taken apart.
+
+    Raises:
+        RecipeError: where it is none.
+    """
+    if isinstance(path, tuple):
+        return path
+    try:
+        return parse_path(path)
+    except ValueError as error:
+        raise RecipeError([Fault(str(error), source=path[:80])]) from None
+
+
+def middle_of(tables: Mapping[str, Any]) -> tuple[float, float]:
+    """Return the middle of a recipe's repeat in mm, where a placement lies that says no place."""
+    try:
+        width, height = map(parse_length, tables["tile"]["size"])
+    except (LookupError, TypeError, ValueError):
+        return 0.0, 0.0
+    return width / 2, height / 2
+
+
+def _is_known(default: Any) -> bool:
+    return default is not MISSING and default is not None and not isinstance(default, int | float | str)
+
+
+def _put(table: Any, place: Place, rest: Path, value: Any) -> None:
+    """Set a value in a table of defaults; what is missing on the way is written with its own."""
+    for depth, part in enumerate(rest):
+        if depth == len(rest) - 1:
+            table[part] = value
+            return
+        found = inner(place, part)
+        held = table.get(part) if isinstance(table, dict) else table[part]
+        if held is None:
+            held = plain(found.hint, found.default) if found and _is_known(found.default) else {}
+            table[part] = held
+        table, place = held, found or Place(Hint(object), MISSING, MISSING)
+
+
+def changes_between(before: Draft, after: Draft) -> Iterator[str]:
+    """Yield the keys of values that two drafts say differently, for the name of an undo step."""
+    try:
+        yield from _differences(before.tables, after.tables, ())
+    except RecipeError:
+        return
+
+
+def _differences(one: Any, other: Any, path: Path) -> Iterator[str]:
+    if isinstance(one, dict) and isinstance(other, dict):
+        for key in [*one, *(key for key in other if key not in one)]:
+            yield from _differences(one.get(key, MISSING), other.get(key, MISSING), (*path, key))
+    elif isinstance(one, list) and isinstance(other, list) and len(one) == len(other):
+        for index, (mine, its) in enumerate(zip(one, other, strict=True)):
+            yield from _differences(mine, its, (*path, index))
+    elif one != other or type(one) is not type(other):
+        yield dotted(path)

@@ -1,0 +1,423 @@
+"""Changes of a recipe's text that leave alone what they do not change: comments, order, spelling.
+
+Values are exchanged where they stand, keys and tables put in and taken out around them. Every change is read
+again and compared with what it was to say; where the text is written in a way that cannot be mended in place
+(a table in dotted keys, say) the document is written anew, and says the same.
+"""
+
+from __future__ import annotations
+
+import copy
+import math
+import re
+import tomllib
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from batik_vector.recipe.reading.lines import Spans, spans
+from batik_vector.recipe.references import Path, quoted
+
+_BARE = re.compile(r"[A-Za-z0-9_-]+\Z")
+_WIDE = 118
+"""Characters of a line past which a table is written with its keys on lines of their own."""
+Span = tuple[int, int]
+
+
+class CannotRewriteError(ValueError):
+    """A change that has no meaning in a text, such as to take out what is not there."""
+
+
+def spelled(value: Any) -> str:
+    """Return a value as TOML writes it on one line.
+
+    Raises:
+        ValueError: where TOML has no such value.
+    """
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return quoted(value)
+    if isinstance(value, int):
+        return str(int(value))
+    if isinstance(value, float):
+        if not math.isfinite(value):
+            raise ValueError(f"{value}, expected a number that is finite")
+        return repr(float(value))
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(map(spelled, value)) + "]"
+    if isinstance(value, dict):
+        pairs = ", ".join(f"{spelled_key(str(key))} = {spelled(each)}" for key, each in value.items())
+        return f"{{ {pairs} }}" if pairs else "{}"
+    raise ValueError(f"a value of type {type(value).__name__}, expected what TOML can say")
+
+
+def spelled_key(key: str) -> str:
+    """Return a key as TOML writes it."""
+    return key if _BARE.match(key) else quoted(key)
+
+
+def with_value(text: str, path: Path, value: Any) -> str:
+    """Return a text that says a value at a path; tables that are missing are made.
+
+    Raises:
+        CannotRewriteError: where the path leads into what is no table, or past the end of a list.
+    """
+    tables = tomllib.loads(text)
+    if path in (known := spans(text).values):
+        start, end = known[path]
+        _set(tables, path, value)
+        return _first([lambda: text[:start] + spelled(value) + text[end:]], tables)
+    depth = _known_depth(tables, path)
+    around, rest = path[:depth], path[depth:]
+    _set(tables, path, value)
+    if not rest:
+        # A table under headers: what it said goes, and the value comes in its place.
+        return _first([lambda: with_value(without(text, path), path, value)], tables)
+    held: Any = value
+    for part in reversed(rest[1:]):
+        if not isinstance(part, str):
+            raise CannotRewriteError(f"there is no list to put place {part} into")
+        held = {part: held}
+    if not isinstance(rest[0], str):
+        raise CannotRewriteError(f"there is no place {rest[0]} in the list")
+    key = rest[0]
+    ways = [lambda: _added(text, around, key, held), lambda: _headed(text, (*around, key), held)]
+    return _first(ways, tables)
+
+
+def without(text: str, path: Path) -> str:
+    """Return a text without what stands at a path.
+
+    Raises:
+        CannotRewriteError: where nothing stands there.
+    """
+    tables = tomllib.loads(text)
+    around = _at(tables, path[:-1])
+    if not _has(around, path[-1]):
+        raise CannotRewriteError("nothing stands there")
+    del around[path[-1]]
+    return _first([lambda: _cut_out(text, path)], tables)
+
+
+def inserted(text: str, path: Path, value: Any, index: int | None = None, written: str = "") -> str:
+    """Return a text with another member of a list, which is made where it is missing.
+
+    Args:
+        text: the recipe.
+        path: of the list.
+        value: of the member.
+        index: its place; the end when left out.
+        written: how the member is written, where that is known: a block with its header, or a value in place.
+
+    Raises:
+        CannotRewriteError: where no list stands there.
+    """
+    tables = tomllib.loads(text)
+    depth = _known_depth(tables, path)
+    if depth < len(path):
+        if len(path) == 1 and isinstance(value, dict):
+            _set(tables, path, [value])
+            return _first([lambda: _block_at(text, len(text), written or _block(path, value, True))], tables)
+        return with_value(text, path, [value])
+    members = _at(tables, path)
+    if not isinstance(members, list):
+        raise CannotRewriteError("no list stands there")
+    place = len(members) if index is None else max(0, min(index, len(members)))
+    members.insert(place, copy.deepcopy(value))
+    ways = [lambda: _inserted_in_place(text, path, place, written or spelled(value))]
+    if not members[1:] or path not in spans(text).values:
+        block = written if written.lstrip().startswith(("[", "#")) else _block(path, value, True)
+        ways = [lambda: _inserted_block(text, path, place, block)]
+    return _first(ways, tables)
+
+
+def moved(text: str, path: Path, to: int) -> str:
+    """Return a text with a member of a list, or a table of tables by name, at another place among them.
+
+    Raises:
+        CannotRewriteError: where nothing stands there.
+    """
+    tables = tomllib.loads(text)
+    around, key = _at(tables, path[:-1]), path[-1]
+    if not _has(around, key):
+        raise CannotRewriteError("nothing stands there")
+    names: list[Any] = list(range(len(around))) if isinstance(around, list) else list(around)
+    order = [name for name in names if name != key]
+    order.insert(max(0, min(to, len(order))), key)
+    if isinstance(around, list):
+        around[:] = [around[name] for name in order]
+    else:
+        held = {name: around.pop(name) for name in order}
+        around.update(held)
+    return _first([lambda: _permuted(text, path[:-1], names, order)], tables, path[:-1])
+
+
+def member_text(text: str, path: Path) -> str:
+    """Return how a member of a list, or a table by name, is written: a block, or a value in place."""
+    known = spans(text)
+    if path in known.values:
+        start, end = known.values[path]
+        return text[start:end]
+    blocks = _blocks_of(text, known, path)
+    return text[blocks[0] : blocks[1]].strip("\n") + "\n" if blocks else ""
+
+
+def _first(ways: Sequence[Callable[[], str]], tables: dict[str, Any], ordered: Path | None = None) -> str:
+    """Return what the first way writes that says what is meant; in the end the tables alone."""
+    import tomlkit
+
+    for way in ways:
+        try:
+            written = way()
+            said = tomllib.loads(written)
+        except (ValueError, LookupError, TypeError):
+            continue
+        if said == tables and (ordered is None or _order(said, ordered) == _order(tables, ordered)):
+            return written
+    return tomlkit.dumps(tables)
+
+
+def _order(tables: Any, path: Path) -> list[Any]:
+    held = _at(tables, path)
+    return list(held) if isinstance(held, dict) else []
+
+
+def _at(tables: Any, path: Path) -> Any:
+    for part in path:
+        if not _has(tables, part):
+            raise CannotRewriteError("nothing stands there")
+        tables = tables[part]
+    return tables
+
+
+def _has(node: Any, part: str | int) -> bool:
+    if isinstance(node, list):
+        return isinstance(part, int) and 0 <= part < len(node)
+    return isinstance(node, dict) and part in node
+
+
+def _known_depth(tables: Any, path: Path) -> int:
+    """Return how much of a path is there."""
+    for depth, part in enumerate(path):
+        if not _has(tables, part):
+            if not isinstance(tables, dict | list):
+                raise CannotRewriteError("leads into what is no table")
+            return depth
+        tables = tables[part]
+    return len(path)
+
+
+def _set(tables: Any, path: Path, value: Any) -> None:
+    for part in path[:-1]:
+        tables = tables.setdefault(str(part), {}) if isinstance(tables, dict) else tables[part]
+    tables[path[-1]] = copy.deepcopy(value)
+
+
+# Keys into tables.
+
+
+def _added(text: str, around: Path, key: str, value: Any) -> str:
+    """Return the text with another key in a table that is written in place or has a header."""
+    known = spans(text)
+    pair = f"{spelled_key(key)} = {spelled(value)}"
+    if around in known.values:
+        start, end = known.values[around]
+        if text[start] != "{":
+            raise CannotRewriteError("no table stands there")
+        inner = text[start + 1 : end - 1].rstrip()
+        return f"{text[:start]}{{{inner}{', ' if inner.strip() else ' '}{pair} }}{text[end:]}"
+    begin, stop = _own_lines(text, known, around)
+    if not around and isinstance(value, dict):
+        raise CannotRewriteError("tables of the root have headers")
+    ends = [end for start, end in known.values.values() if begin <= start < stop]
+    if not ends:
+        return _line_in(text, begin, pair)
+    last = max(ends)
+    mine = [start for path, start in known.starts.items() if len(path) == len(around) + 1]
+    lines = [text[start:last].partition("\n")[0] for start in mine if begin <= start < stop]
+    return _line_in(text, _line_end(text, last), _aligned(key, pair, lines))
+
+
+def _aligned(key: str, pair: str, lines: Sequence[str]) -> str:
+    """Return ``key = value`` with its sign under those of other lines, where these stand in one column."""
+    columns = {len(line.partition("=")[0]) for line in lines}
+    name = spelled_key(key)
+    column = columns.pop() if len(columns) == 1 and len(lines) > 1 else 0
+    return name.ljust(column - 1) + pair[len(name) :] if column > len(name) else pair
+
+
+def _own_lines(text: str, known: Spans, table: Path) -> Span:
+    """Return where the keys of a table stand: from behind its header to the next one."""
+    starts = [start for start, _ in known.headers]
+    if not table:
+        return 0, _block_start(text, starts[0]) if starts else len(text)
+    for number, (start, path) in enumerate(known.headers):
+        if path == table:
+            stop = starts[number + 1] if number + 1 < len(starts) else len(text)
+            return _line_end(text, start), stop
+    raise CannotRewriteError("the table has no header")
+
+
+def _line_end(text: str, at: int) -> int:
+    """Return where the next line begins."""
+    found = text.find("\n", at)
+    return len(text) if found < 0 else found + 1
+
+
+def _line_in(text: str, at: int, line: str) -> str:
+    before = text[:at] if not at or text[at - 1 : at] == "\n" else text[:at] + "\n"
+    return f"{before}{line}\n{text[at:]}"
+
+
+# Tables with headers.
+
+
+def _headed(text: str, path: Path, value: Any) -> str:
+    """Return the text with a table under a header of its own, behind those of its kind."""
+    if not isinstance(value, dict):
+        raise CannotRewriteError("a table is expected to have a header")
+    known = spans(text)
+    alike = [place for place, (_, at) in enumerate(known.headers) if at[: len(path) - 1] == path[:-1]]
+    at = len(text)
+    if len(path) > 1 and alike and alike[-1] + 1 < len(known.headers):
+        at = _block_start(text, known.headers[alike[-1] + 1][0])
+    return _block_at(text, at, _block(path, value, False))
+
+
+def _block(path: Path, value: dict[str, Any], double: bool) -> str:
+    names = ".".join(spelled_key(part) for part in path if isinstance(part, str))
+    header = f"[[{names}]]" if double else f"[{names}]"
+    room = max((len(spelled_key(key)) for key in value), default=0)
+    lines = [f"{spelled_key(key):<{room}} = {_in_lines(each)}" for key, each in value.items()]
+    return "\n".join([header, *lines]) + "\n"
+
+
+def _in_lines(value: Any) -> str:
+    """Return a value on one line; a long list of tables on several."""
+    line = spelled(value)
+    if len(line) <= _WIDE or not isinstance(value, list | tuple):
+        return line
+    return "[\n" + "".join(f"  {spelled(each)},\n" for each in value) + "]"
+
+
+def _block_at(text: str, at: int, block: str) -> str:
+    """Return the text with a block put in, an empty line on both sides."""
+    before, after = text[:at].rstrip("\n"), text[at:].lstrip("\n")
+    parts = [part for part in (before, block.strip("\n"), after.rstrip("\n")) if part]
+    return "\n\n".join(parts) + "\n"
+
+
+def _block_start(text: str, at: int) -> int:
+    """Return where the comment begins that stands right above a header."""
+    while at > 0:
+        above = text.rfind("\n", 0, at - 1) + 1
+        if not text[above : at - 1].lstrip().startswith("#") or at < 2:
+            return at
+        at = above
+    return at
+
+
+def _blocks_of(text: str, known: Spans, path: Path) -> Span | None:
+    """Return from where to where a table's headers and those within it stand, comments above included.
+
+    None where others stand between them.
+    """
+    mine = [number for number, (_, each) in enumerate(known.headers) if each[: len(path)] == path]
+    if not mine or mine != list(range(mine[0], mine[-1] + 1)):
+        return None
+    first = _block_start(text, known.headers[mine[0]][0])
+    after = mine[-1] + 1
+    last = _block_start(text, known.headers[after][0]) if after < len(known.headers) else len(text)
+    return first, last
+
+
+def _inserted_block(text: str, path: Path, place: int, block: str) -> str:
+    known = spans(text)
+    blocks = _members(text, known, path)
+    if place < len(blocks):
+        return _block_at(text, blocks[place][0], block)
+    return _block_at(text, blocks[-1][1] if blocks else len(text), block)
+
+
+def _members(text: str, known: Spans, path: Path) -> list[Span]:
+    """Return the blocks of a list's members."""
+    found: list[Span] = []
+    while (span := _blocks_of(text, known, (*path, len(found)))) is not None:
+        found.append(span)
+    return found
+
+
+# Members of what is written in place.
+
+
+def _inserted_in_place(text: str, path: Path, place: int, written: str) -> str:
+    known = spans(text)
+    start, end = known.values[path]
+    items = _items(known, path)
+    if not items:
+        return f"{text[:start]}[{written}]{text[end:]}"
+    first = items[0][0]
+    # The line of its own, where the first has one.
+    line = text.rfind("\n", start, first)
+    gap = text[line:first] if line >= 0 and not text[line:first].strip() else " "
+    if place < len(items):
+        at = items[place][0]
+        return f"{text[:at]}{written},{gap}{text[at:]}"
+    at = items[-1][1]
+    return f"{text[:at]},{gap}{written}{text[at:]}"
+
+
+def _items(known: Spans, path: Path) -> list[Span]:
+    found: list[Span] = []
+    while (span := known.values.get((*path, len(found)))) is not None:
+        found.append(span)
+    return found
+
+
+def _cut_out(text: str, path: Path) -> str:
+    """Return the text without a key, a member or a block."""
+    known = spans(text)
+    if path not in known.values:
+        blocks = _blocks_of(text, known, path)
+        if blocks is None:
+            raise CannotRewriteError("it stands in several places")
+        return text[: blocks[0]] + text[blocks[1] :]
+    end = known.values[path][1]
+    around = path[:-1]
+    if around in known.values:
+        start = known.starts[path]
+        return _cut_from(text, known.values[around], start, end)
+    start = text.rfind("\n", 0, known.starts[path]) + 1
+    return text[:start] + text[_line_end(text, end) :]
+
+
+def _cut_from(text: str, around: Span, start: int, end: int) -> str:
+    """Return the text without a member of what is written in place, and without its comma."""
+    line, stop = text.rfind("\n", 0, start) + 1, _line_end(text, end)
+    rest = text[end:stop]
+    alone = line > around[0] and not text[line:start].strip() and stop <= around[1]
+    if alone and re.fullmatch(r"\s*,?\s*(#[^\n]*)?\n", rest):
+        return text[:line] + text[stop:]
+    behind = re.match(r"\s*,[ \t]*", text[end : around[1]])
+    if behind is not None:
+        return text[:start] + text[end + behind.end() :]
+    before = re.search(r",\s*\Z", text[around[0] : start])
+    return text[: around[0] + before.start()] + text[end:] if before else text[:start] + text[end:]
+
+
+def _permuted(text: str, path: Path, names: Sequence[Any], order: Sequence[Any]) -> str:
+    """Return the text with the members of a list or a table in another order, each written as it was."""
+    known = spans(text)
+    slots: list[Span] = []
+    for name in names:
+        member = (*path, name)
+        if member in known.values:
+            slots.append((known.starts[member], known.values[member][1]))
+        elif (span := _blocks_of(text, known, member)) is not None:
+            slots.append((span[0], span[0] + len(text[span[0] : span[1]].rstrip())))
+        else:
+            raise CannotRewriteError("it stands in several places")
+    held = {name: text[start:end] for name, (start, end) in zip(names, slots, strict=True)}
+    for (start, end), name in sorted(zip(slots, order, strict=True), key=lambda each: -each[0][0]):
+        text = text[:start] + held[name] + text[end:]
+    return text

@@ -1,0 +1,166 @@
+"""Views of a draft: the tile, a field of it, the cloth, or the cloth on a cushion or a shirt, as SVG.
+
+What is shown is what the SVG writer writes of what the compiler makes, coarser than files are by as much as a
+screen cannot show. It happens here, in the process that calls; :mod:`~batik_vector.studio.pictures` has
+another process do it.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import field, replace
+from typing import Any
+
+from batik_vector.artwork import Artwork, Page
+from batik_vector.compiling.compiler import compile_cloth, compile_recipe
+from batik_vector.errors import BatikError, Fault, GeometryError, RecipeError, TooLargeError
+from batik_vector.export.options import Profile, SvgOptions
+from batik_vector.export.svg import svg_text
+from batik_vector.making.facts import facts_of, warnings
+from batik_vector.making.promised import asked_group
+from batik_vector.recipe.loading import located, read_recipe
+from batik_vector.recipe.model import Recipe, YardageSpec
+from batik_vector.studio.drafts import Draft
+from batik_vector.studio.draping import FORMS, draped
+from batik_vector.studio.lines import as_lines
+from batik_vector.tiling.cloth.field import field_page
+from batik_vector.values import frozen
+
+KINDS = ("tile", "three", "field", "yardage", *FORMS)
+"""What can be looked at: the tile, 3 × 3 of it, a field as large as ``View.across`` and ``up`` say, the
+recipe's cloth, and the cloth on forms."""
+SCREEN = 0.15
+"""mm that an edge may stand from the true curve on screen: half a pixel of a tile of 300 mm."""
+METRE = 1000.0
+MOST_SHOWN = 1_500_000
+"""Vertices of a picture that a browser still moves."""
+
+
+@frozen
+class View:
+    """How a draft is looked at.
+
+    Args:
+        kind: one of ``KINDS``.
+        look: ``cloth`` for cloth and wax, or ``lines`` for outlines alone.
+        tolerance: mm that edges may stand from the true curves, where the recipe does not allow more.
+        across, up: tiles of a field.
+        certify: whether the tile is measured too, for the verdict.
+        pointers: whether what the certificate finds wrong is marked in the picture, in a layer "check".
+    """
+
+    kind: str = "tile"
+    look: str = "cloth"
+    tolerance: float = SCREEN
+    across: int = 4
+    up: int = 4
+    certify: bool = False
+    pointers: bool = False
+
+    def __post_init__(self) -> None:
+        if self.kind not in KINDS:
+            raise GeometryError(f"a view of kind {self.kind}, expected one of {', '.join(KINDS)}")
+
+
+@frozen(eq=False)
+class Shown:
+    """What came of looking: a picture or faults, and what is known of it.
+
+    Args:
+        svg: the picture; empty where there are faults.
+        facts: as ``compile --json`` reports them, and ``size_mm``, what the picture shows; ``warnings``.
+        verdict: as ``check --json`` reports it; empty where it was not asked for.
+        faults: why there is no picture.
+        seconds: that it took.
+    """
+
+    svg: str = ""
+    facts: Mapping[str, Any] = field(default_factory=dict)
+    verdict: Mapping[str, Any] = field(default_factory=dict)
+    faults: tuple[Fault, ...] = ()
+    seconds: float = 0.0
+
+
+class Looker:
+    """Makes views; the tile that was compiled last is kept, for another view of the same draft."""
+
+    def __init__(self) -> None:
+        self._known: tuple[Any, Recipe, Artwork | None] | None = None
+
+    def look(self, draft: Draft, view: View, tell: Callable[[str], None] = lambda _: None) -> Shown:
+        """Return what a view shows of a draft, or the faults that it has."""
+        begun = time.perf_counter()
+        try:
+            shown = self._look(draft, view, tell)
+        except RecipeError as error:
+            shown = Shown(faults=located(error, draft.stem, draft.text).faults)
+        except BatikError as error:
+            shown = Shown(faults=(Fault(str(error), source=draft.stem),))
+        except MemoryError:
+            shown = Shown(faults=(Fault("this needs more memory than there is", source=draft.stem),))
+        return replace(shown, seconds=time.perf_counter() - begun)
+
+    def _look(self, draft: Draft, view: View, tell: Callable[[str], None]) -> Shown:
+        recipe, tile = self._compiled(draft, view, tell)
+        tell("drawing")
+        verdict: Mapping[str, Any] = {}
+        drawn = tile
+        if tile is not None and (view.certify or view.pointers):
+            from batik_vector.certificate import certify, pointers
+
+            certificate = certify(tile, asked=asked_group(recipe))
+            verdict = certificate.as_dict()
+            if view.pointers and not certificate.passed:
+                drawn = pointers(tile, certificate)
+        facts: dict[str, Any] = facts_of(tile, None)
+        facts["warnings"] = warnings(recipe, tile) if tile is not None else []
+        svg, size = self._drawn(recipe, drawn, view, tell)
+        if view.look == "lines":
+            svg = as_lines(svg, max(size) / 900)
+        return Shown(svg, facts | {"size_mm": list(size)}, verdict)
+
+    def _compiled(
+        self, draft: Draft, view: View, tell: Callable[[str], None]
+    ) -> tuple[Recipe, Artwork | None]:
+        key = draft.text, draft.folder, draft.drawings, view.tolerance
+        if self._known is not None and self._known[0] == key:
+            return self._known[1:]
+        recipe = read_recipe(draft.text, draft.stem, folder=draft.folder, drawings=dict(draft.drawings))
+        if recipe.tolerance < view.tolerance:
+            recipe = replace(recipe, tolerance=view.tolerance)
+        tile = compile_recipe(recipe, progress=tell) if recipe.tile is not None else None
+        # What it names may change on the disk.
+        self._known = None if recipe.drawing else (key, recipe, tile)
+        return recipe, tile
+
+    def _drawn(
+        self, recipe: Recipe, tile: Artwork | None, view: View, tell: Callable[[str], None]
+    ) -> tuple[str, tuple[float, float]]:
+        """Return a picture and how much cloth it shows, in mm."""
+        if view.kind == "yardage" or tile is None:
+            page: Page = _cloth(recipe, tile, tell)
+        elif view.kind in FORMS:
+            return draped(tile, view.kind)
+        elif view.kind == "tile":
+            page = tile
+        else:
+            across, up = (3, 3) if view.kind == "three" else (view.across, view.up)
+            page = field_page(tile, across, up)
+        if page.vertex_count > MOST_SHOWN:
+            raise TooLargeError(
+                f"about {page.vertex_count:,} vertices, more than a page can show: look at the tile, or at "
+                "fewer repeats"
+            )
+        return svg_text(page, SHOWN), (page.cell.width, page.cell.height)
+
+
+SHOWN = SvgOptions(profile=Profile.COMPACT)
+"""How pictures are written: the marks of an ink in as few paths as can be."""
+
+
+def _cloth(recipe: Recipe, tile: Artwork | None, tell: Callable[[str], None]) -> Page:
+    """Return a recipe's cloth; where it says of none how large it is, a square metre."""
+    if recipe.yardage is None:
+        recipe = replace(recipe, yardage=YardageSpec(width=METRE, length=METRE))
+    return compile_cloth(recipe, tile=tile, progress=tell)
