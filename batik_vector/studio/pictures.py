@@ -24,13 +24,18 @@ from multiprocessing.connection import Connection
 from typing import Any
 
 from batik_vector.errors import Fault
+from batik_vector.studio.asking import View, Wishes
 from batik_vector.studio.drafts import Draft
-from batik_vector.studio.views import View
 from batik_vector.studio.worker import Answer, answer_of, request_of, serve
 from batik_vector.values import frozen
 
 LIMIT = 30.0
 """Seconds that a picture may take, unless an ask says otherwise."""
+EXPORT_LIMIT = 600.0
+"""Seconds that an export may take."""
+FRONT, BACK, EXPORTING = "front", "back", "export"
+EXPORT = "\0export"
+"""The lane of exports, for :meth:`Pictures.cancel`."""
 PATIENCE = 2.0
 """Seconds after which what is under way makes room for a newer ask of its lane."""
 
@@ -60,6 +65,16 @@ class Picture:
     waited: float = 0.0
 
 
+@frozen(eq=False)
+class Export:
+    """The files of a draft by their names, the command's report of them, or why there are none."""
+
+    files: Mapping[str, bytes] = field(default_factory=dict)
+    report: Mapping[str, Any] = field(default_factory=dict)
+    faults: tuple[Fault, ...] = ()
+    seconds: float = 0.0
+
+
 class Pictures:
     """Makes pictures; close it at the end, or use it with ``async with``."""
 
@@ -71,9 +86,9 @@ class Pictures:
         """
         self._limit = limit
         self._threads = ThreadPoolExecutor(4, thread_name_prefix="batik-pictures")
-        # One process serves what is looked at, the other one all that may wait.
-        self._hands = {False: _Hand(), True: _Hand()}
-        self._turns: dict[bool, asyncio.Lock] = {}
+        # One process serves what is looked at, one all that may wait, and one makes files.
+        self._hands = {which: _Hand(spare=which == FRONT) for which in (FRONT, BACK, EXPORTING)}
+        self._turns: dict[str, asyncio.Lock] = {}
         self._newest: dict[str, int] = {}
         self._running: dict[str, tuple[_Hand, float]] = {}
         self._closed = False
@@ -105,31 +120,65 @@ class Pictures:
         """
         view = view or View()
         begun = time.perf_counter()
-        ticket = self._newest[lane] = self._newest.get(lane, 0) + 1
-        self._make_room(lane)
-        turn = self._turns.setdefault(background, asyncio.Lock())
-        async with turn:
-            if self._newest[lane] != ticket or self._closed:
+        found = await self._taken(
+            draft, view, lane, BACK if background else FRONT, limit or self._limit, tell
+        )
+        if found is None:
+            return None
+        waited = time.perf_counter() - begun
+        return Picture(
+            draft, view, found.svg, found.facts, found.verdict, _faults(found), found.seconds, waited
+        )
+
+    async def verdict(self, draft: Draft, *, limit: float | None = None) -> Picture | None:
+        """Return the tile at the recipe's own tolerance, with the certificate's verdict and its pointers."""
+        view = View(tolerance=0.0, certify=True, pointers=True)
+        return await self.ask(draft, view, lane="\0verdict", background=True, limit=limit)
+
+    async def export(
+        self,
+        draft: Draft,
+        wishes: Wishes | None = None,
+        *,
+        limit: float = EXPORT_LIMIT,
+        tell: Callable[[str], None] | None = None,
+    ) -> Export:
+        """Return the files of a draft: those of the command, byte for byte.
+
+        Args:
+            draft, wishes: see :mod:`~batik_vector.studio.exports`.
+            limit, tell: see :meth:`ask`; ``cancel(EXPORT)`` stops it.
+        """
+        wishes = wishes or Wishes()
+        # Exports never follow one another by a lane: each is wanted.
+        found = await self._taken(draft, wishes, EXPORT, EXPORTING, limit, tell, newest=False)
+        if found is None:
+            return Export(faults=(Fault("cancelled"),))
+        return Export(found.files, found.facts, _faults(found), found.seconds)
+
+    async def _taken(
+        self,
+        draft: Draft,
+        wanted: View | Wishes,
+        lane: str,
+        which: str,
+        limit: float,
+        tell: Callable[[str], None] | None,
+        newest: bool = True,
+    ) -> Answer | None:
+        ticket = self._newest.get(lane, 0)
+        if newest:
+            ticket = self._newest[lane] = ticket + 1
+            self._make_room(lane)
+        async with self._turns.setdefault(which, asyncio.Lock()):
+            if self._newest.get(lane, 0) != ticket or self._closed:
                 return None
-            hand = self._hands[background]
+            hand = self._hands[which]
             self._running[lane] = hand, time.perf_counter()
             try:
-                answer = await self._answered(hand, draft, view, limit or self._limit, tell)
+                return await self._answered(hand, request_of(draft, wanted), limit, tell)
             finally:
                 del self._running[lane]
-        faults = answer.faults
-        if answer.defect:
-            faults = (Fault("could not be drawn, by a defect of this program: " + _last(answer.defect)),)
-        return Picture(
-            draft,
-            view,
-            answer.svg,
-            answer.facts,
-            answer.verdict,
-            faults,
-            answer.seconds,
-            time.perf_counter() - begun,
-        )
 
     def cancel(self, lane: str = "") -> None:
         """Stop what is under way in a lane, which is answered with a fault, and drop what waits."""
@@ -148,7 +197,7 @@ class Pictures:
         loop.call_later(max(left, 0), lambda: hand.stop("a newer one was asked for", number))
 
     async def _answered(
-        self, hand: _Hand, draft: Draft, view: View, limit: float, tell: Callable[[str], None] | None
+        self, hand: _Hand, request: bytes, limit: float, tell: Callable[[str], None] | None
     ) -> Answer:
         loop = asyncio.get_running_loop()
 
@@ -160,7 +209,7 @@ class Pictures:
         number = hand.number
         words = f"took longer than {limit:g} s and was stopped"
         alarm = loop.call_later(limit, lambda: hand.stop(words, number))
-        work = loop.run_in_executor(self._threads, hand.exchange, request_of(draft, view), say)
+        work = loop.run_in_executor(self._threads, hand.exchange, request, say)
         try:
             return await asyncio.shield(work)
         except asyncio.CancelledError:
@@ -187,12 +236,16 @@ class Pictures:
 
 
 class _Hand:
-    """A process and the pipe to it; it is made when it is needed, and made again where it has gone."""
+    """A process and the pipe to it; it is made when it is needed, and made again where it has gone.
 
-    def __init__(self) -> None:
+    With a spare another one stands ready, as to begin takes a second.
+    """
+
+    def __init__(self, spare: bool = False) -> None:
         self._context = multiprocessing.get_context("spawn")
-        self._process: Any = None
-        self._pipe: Connection | None = None
+        self._wants_spare = spare
+        self._now: _Made | None = None
+        self._spare: _Made | None = None
         self._reason = ""
         self._ended = False
         self.number = 0
@@ -208,44 +261,60 @@ class _Hand:
                 tell(answer.stage)
         except (EOFError, OSError):
             return Answer(faults=(Fault(self._gone()),))
+        if self._wants_spare and self._spare is None and not self._ended:
+            self._spare = self._made()
         return answer
 
     def _open(self) -> Connection:
         if self._ended:
             raise EOFError
-        if self._pipe is None or self._process is None or not self._process.is_alive():
-            mine, theirs = self._context.Pipe()
-            with _deaf():
-                self._process = self._context.Process(target=serve, args=(theirs,), daemon=True)
-                self._process.start()
-            theirs.close()
-            self._pipe = mine
-        return self._pipe
+        if self._now is None or not self._now.process.is_alive():
+            self._now, self._spare = self._spare, None
+        if self._now is None or not self._now.process.is_alive():
+            self._now = self._made()
+        return self._now.pipe
+
+    def _made(self) -> _Made:
+        mine, theirs = self._context.Pipe()
+        with _deaf():
+            process = self._context.Process(target=serve, args=(theirs,), daemon=True)
+            process.start()
+        theirs.close()
+        return _Made(process, mine)
 
     def _gone(self) -> str:
         """Return in words why there is no answer, and be ready to begin anew."""
-        process, self._process = self._process, None
-        pipe, self._pipe = self._pipe, None
-        if pipe is not None:
-            pipe.close()
-        if process is not None:
-            process.join()
+        gone, self._now = self._now, None
+        if gone is not None:
+            gone.pipe.close()
+            gone.process.join()
         if self._reason:
             return self._reason
-        code = process.exitcode if process is not None else None
+        code = gone.process.exitcode if gone is not None else None
         return f"the process that drew it ended ({code}), perhaps for want of memory; the draft is kept"
 
     def stop(self, reason: str, number: int | None = None) -> None:
         """End the process, unless it is at other work by now."""
-        if self._process is None or (number is not None and number != self.number):
+        if self._now is None or (number is not None and number != self.number):
             return
         self._reason = reason
-        self._process.kill()
+        self._now.process.kill()
 
     def end(self) -> None:
-        """End the process for good."""
+        """End the processes for good."""
         self._ended = True
-        self.stop("the studio was closed")
+        self._reason = "the studio was closed"
+        for made in (self._now, self._spare):
+            if made is not None:
+                made.process.kill()
+
+
+@frozen(eq=False)
+class _Made:
+    """A process and the pipe to it."""
+
+    process: Any
+    pipe: Connection
 
 
 @contextlib.contextmanager
@@ -261,5 +330,8 @@ def _deaf() -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-def _last(defect: str) -> str:
-    return defect.strip().splitlines()[-1][:200]
+def _faults(answer: Answer) -> tuple[Fault, ...]:
+    if not answer.defect:
+        return answer.faults
+    last = answer.defect.strip().splitlines()[-1][:200]
+    return (Fault(f"could not be drawn, by a defect of this program: {last}"),)

@@ -14,53 +14,23 @@ from typing import Any
 
 from batik_vector.artwork import Artwork, Page
 from batik_vector.compiling.compiler import compile_cloth, compile_recipe
-from batik_vector.errors import BatikError, Fault, GeometryError, RecipeError, TooLargeError
+from batik_vector.errors import BatikError, Fault, RecipeError, TooLargeError
 from batik_vector.export.options import Profile, SvgOptions
 from batik_vector.export.svg import svg_text
 from batik_vector.making.facts import facts_of, warnings
 from batik_vector.making.promised import asked_group
 from batik_vector.recipe.loading import located, read_recipe
 from batik_vector.recipe.model import Recipe, YardageSpec
+from batik_vector.studio.asking import View
 from batik_vector.studio.drafts import Draft
 from batik_vector.studio.draping import FORMS, draped
 from batik_vector.studio.lines import as_lines
 from batik_vector.tiling.cloth.field import field_page
 from batik_vector.values import frozen
 
-KINDS = ("tile", "three", "field", "yardage", *FORMS)
-"""What can be looked at: the tile, 3 × 3 of it, a field as large as ``View.across`` and ``up`` say, the
-recipe's cloth, and the cloth on forms."""
-SCREEN = 0.15
-"""mm that an edge may stand from the true curve on screen: half a pixel of a tile of 300 mm."""
 METRE = 1000.0
 MOST_SHOWN = 1_500_000
 """Vertices of a picture that a browser still moves."""
-
-
-@frozen
-class View:
-    """How a draft is looked at.
-
-    Args:
-        kind: one of ``KINDS``.
-        look: ``cloth`` for cloth and wax, or ``lines`` for outlines alone.
-        tolerance: mm that edges may stand from the true curves, where the recipe does not allow more.
-        across, up: tiles of a field.
-        certify: whether the tile is measured too, for the verdict.
-        pointers: whether what the certificate finds wrong is marked in the picture, in a layer "check".
-    """
-
-    kind: str = "tile"
-    look: str = "cloth"
-    tolerance: float = SCREEN
-    across: int = 4
-    up: int = 4
-    certify: bool = False
-    pointers: bool = False
-
-    def __post_init__(self) -> None:
-        if self.kind not in KINDS:
-            raise GeometryError(f"a view of kind {self.kind}, expected one of {', '.join(KINDS)}")
 
 
 @frozen(eq=False)

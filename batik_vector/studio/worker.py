@@ -1,7 +1,7 @@
 """The process that makes pictures: text and bytes come and go through a pipe, and nothing that is run.
 
-A request is one message, JSON. An answer is one, JSON, and where there is a picture a second one, its bytes.
-Before it there may be messages that tell the stage of the work.
+A request is one message, JSON. An answer is one, JSON, and after it come the bytes of each file that was
+made. Before it there may be messages that tell the stage of the work.
 """
 
 from __future__ import annotations
@@ -10,13 +10,18 @@ import contextlib
 import json
 import os
 import signal
+from collections.abc import Callable
 from dataclasses import asdict, field
 from multiprocessing.connection import Connection
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from batik_vector.errors import Fault
+from batik_vector.studio.asking import View, Wishes
 from batik_vector.studio.drafts import Draft
 from batik_vector.values import frozen
+
+if TYPE_CHECKING:
+    from batik_vector.studio.views import Looker
 
 WARM = '[motif.a]\nkind = "flower"\n[[place]]\nmotif = "a"\nwidth = 80\n[tile]\nsize = [100, 100]\n'
 """Compiled at first, so that all is imported when somebody waits."""
@@ -24,28 +29,29 @@ WARM = '[motif.a]\nkind = "flower"\n[[place]]\nmotif = "a"\nwidth = 80\n[tile]\n
 
 @frozen(eq=False)
 class Answer:
-    """What came back; ``stage`` alone while the work is on."""
+    """What came back; ``stage`` alone while the work is on.
+
+    ``files`` are what was made, by name: a picture has none.
+    """
 
     stage: str = ""
-    svg: bytes = b""
+    files: dict[str, bytes] = field(default_factory=dict)
     facts: dict[str, Any] = field(default_factory=dict)
     verdict: dict[str, Any] = field(default_factory=dict)
     faults: tuple[Fault, ...] = ()
     seconds: float = 0.0
     defect: str = ""
 
+    @property
+    def svg(self) -> bytes:
+        """The picture, where there is one."""
+        return self.files.get("", b"")
 
-def request_of(draft: Draft, view: Any) -> bytes:
-    """Return what is sent for a draft and a view."""
-    return json.dumps(
-        {
-            "text": draft.text,
-            "folder": draft.folder,
-            "drawings": dict(draft.drawings),
-            "stem": draft.stem,
-            "view": asdict(view),
-        }
-    ).encode()
+
+def request_of(draft: Draft, wanted: View | Wishes) -> bytes:
+    """Return what is sent for a draft, and how it is to be looked at or exported."""
+    told = {"text": draft.text, "folder": draft.folder, "drawings": dict(draft.drawings), "stem": draft.stem}
+    return json.dumps({**told, type(wanted).__name__.lower(): asdict(wanted)}).encode()
 
 
 def answer_of(pipe: Connection) -> Answer:
@@ -57,50 +63,57 @@ def answer_of(pipe: Connection) -> Answer:
     told = json.loads(pipe.recv_bytes())
     if "stage" in told:
         return Answer(told["stage"])
-    svg = pipe.recv_bytes() if told["picture"] else b""
+    files = {name: pipe.recv_bytes() for name in told["files"]}
     faults = tuple(Fault(**each) for each in told["faults"])
-    return Answer("", svg, told["facts"], told["verdict"], faults, told["seconds"], told["defect"])
+    return Answer("", files, told["facts"], told["verdict"], faults, told["seconds"], told["defect"])
 
 
 def serve(pipe: Connection) -> None:
     """Be the process: answer until the pipe is closed."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-    from batik_vector.studio.views import Looker, View
+    from batik_vector.studio.views import Looker
 
     looker = Looker()
     looker.look(Draft(WARM), View())
     with contextlib.suppress(EOFError, OSError):
         while True:
             asked = json.loads(pipe.recv_bytes())
-            draft = Draft(
-                asked["text"],
-                asked["folder"],
-                drawings=tuple(asked["drawings"].items()),
-                stem=asked["stem"],
-            )
-            _answer(pipe, looker, draft, View(**asked["view"]))
+            drawings = tuple(asked["drawings"].items())
+            draft = Draft(asked["text"], asked["folder"], drawings=drawings, stem=asked["stem"])
+
+            def tell(stage: str) -> None:
+                pipe.send_bytes(json.dumps({"stage": stage}).encode())
+
+            told, files = _made(looker, draft, asked, tell)
+            pipe.send_bytes(json.dumps(told | {"files": list(files)}).encode())
+            for data in files.values():
+                pipe.send_bytes(data)
 
 
-def _answer(pipe: Connection, looker: Any, draft: Draft, view: Any) -> None:
-    def tell(stage: str) -> None:
-        pipe.send_bytes(json.dumps({"stage": stage}).encode())
-
+def _made(
+    looker: Looker, draft: Draft, asked: dict[str, Any], tell: Callable[[str], None]
+) -> tuple[dict[str, Any], dict[str, bytes]]:
+    """Return what is told of the work, and the files that it made."""
     told: dict[str, Any] = {"facts": {}, "verdict": {}, "faults": [], "seconds": 0.0, "defect": ""}
-    svg = b""
+    files: dict[str, bytes] = {}
     try:
-        shown = looker.look(draft, view, tell)
-        svg = shown.svg.encode()
-        told |= {
-            "facts": shown.facts,
-            "verdict": shown.verdict,
-            "faults": [vars(fault) for fault in shown.faults],
-            "seconds": shown.seconds,
-        }
+        if "wishes" in asked:
+            from batik_vector.studio.exports import export
+
+            held = asked["wishes"]
+            listed = {key: tuple(held.pop(key)) for key in ("formats", "processes")}
+            made = export(draft, Wishes(**listed, **held), tell)
+            files, faults, seconds = dict(made.files), made.faults, made.seconds
+            told["facts"] = made.report
+        else:
+            shown = looker.look(draft, View(**asked["view"]), tell)
+            files = {"": shown.svg.encode()} if shown.svg else {}
+            faults, seconds = shown.faults, shown.seconds
+            told |= {"facts": shown.facts, "verdict": shown.verdict}
+        told |= {"faults": [vars(fault) for fault in faults], "seconds": seconds}
     except Exception:
         import traceback
 
         told["defect"] = traceback.format_exc()
-    pipe.send_bytes(json.dumps(told | {"picture": bool(svg)}).encode())
-    if svg:
-        pipe.send_bytes(svg)
+    return told, files
