@@ -59,10 +59,10 @@ def seen(strokes: Outlines, areas: Outlines, margin: int = 0) -> tuple[Outlines,
 
 def _covers(areas: Outlines, margin: int) -> NDArray[np.object_]:
     """Return areas a hair smaller, or larger by a margin, on whole steps."""
-    apart = margin if margin else -HAIR
     # Together, so that nothing shows between two that meet.
     whole = shapely.union_all(to_polygons(areas))
-    grown = shapely.buffer(whole, apart, quad_segs=QUARTER, join_style="round" if margin else "mitre")
+    # Round joins for the hair too: GEOS' inward mitres were seen to turn a whole part into a hole.
+    grown = shapely.buffer(whole, margin if margin else -HAIR, quad_segs=QUARTER if margin else 2)
     parts = shapely.get_parts(grown)
     return to_polygons(of_polygons(parts[~shapely.is_empty(parts)]))
 
