@@ -112,7 +112,7 @@ class History:
         if draft == self.now:
             return draft
         first = self.now
-        if merge and self._done and self._done[-1].merge == merge and not self._undone:
+        if merge and self._done and self._done[-1].merge == merge:
             first = self._back(self._done.pop(), first)
         self._undone.clear()
         self.now = draft
@@ -127,8 +127,11 @@ class History:
 
     def undo(self) -> Draft:
         """Take a step back, where there is one; return the draft."""
+        self.settle()
         if self._done:
-            self._undone.append(replace(self._done.pop(), merge=""))
+            self._undone.append(self._done.pop())
+            # No later change joins a step that one has come back to.
+            self.settle()
             self.now = self._back(self._undone[-1], self.now)
         return self.now
 
@@ -143,6 +146,13 @@ class History:
     @staticmethod
     def _back(step: Step, draft: Draft) -> Draft:
         return replace(draft, text=step.patch.off(draft.text), **step.before)
+
+    def unrolled(self) -> tuple[Draft, list[Step], list[Step]]:
+        """Return the first draft, the steps that are done, and those that were taken back, in their order."""
+        first = self.now
+        for step in reversed(self._done):
+            first = self._back(step, first)
+        return first, list(self._done), list(reversed(self._undone))
 
     def steps(self) -> Iterator[tuple[str, bool]]:
         """Yield all steps, the first one first: what each is called, and whether it is done."""

@@ -13,6 +13,7 @@ import signal
 from collections.abc import Callable
 from dataclasses import asdict, field
 from multiprocessing.connection import Connection
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from batik_vector.errors import Fault
@@ -23,7 +24,7 @@ from batik_vector.values import frozen
 if TYPE_CHECKING:
     from batik_vector.studio.views import Looker
 
-WARM = '[motif.a]\nkind = "flower"\n[[place]]\nmotif = "a"\nwidth = 80\n[tile]\nsize = [100, 100]\n'
+WARM = Path(__file__).parents[1] / "starters" / "four-square.toml"
 """Compiled at first, so that all is imported when somebody waits."""
 
 
@@ -75,7 +76,7 @@ def serve(pipe: Connection) -> None:
     from batik_vector.studio.views import Looker
 
     looker = Looker()
-    looker.look(Draft(WARM), View())
+    looker.look(Draft(WARM.read_text("utf-8")), View(certify=True))
     with contextlib.suppress(EOFError, OSError):
         while True:
             asked = json.loads(pipe.recv_bytes())
@@ -102,8 +103,8 @@ def _made(
             from batik_vector.studio.exports import export
 
             held = asked["wishes"]
-            listed = {key: tuple(held.pop(key)) for key in ("formats", "processes")}
-            made = export(draft, Wishes(**listed, **held), tell)
+            wishes = Wishes(tuple(held["formats"]), tuple(held["processes"]), held["machine"], held["recipe"])
+            made = export(draft, wishes, tell)
             files, faults, seconds = dict(made.files), made.faults, made.seconds
             told["facts"] = made.report
         else:
