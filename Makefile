@@ -23,8 +23,8 @@ help: ## list these verbs
 demo: $(READY) ## compile samples/four-square.toml to SVG, PDF, DXF and PNG in out/
 	$(BIN)/batik-vector compile samples/four-square.toml -o out -f svg,pdf,dxf,png
 
-test: $(TOOLS_READY) ## run the tests
-	$(PY) -m pytest $(WORKERS) -rs
+test: $(TOOLS_READY) ## run the tests; ONLY="tests/tiling tests/export": only those
+	$(PY) -m pytest $(WORKERS) -rs $(ONLY)
 
 test-clients: $(TOOLS_READY) $(CLIENTS_READY) ## open the files in Inkscape, LibreCAD, LinuxCNC, vpype, hp2xx, Chromium, poppler, mupdf, Ghostscript, qpdf
 	$(PY) -m pytest $(WORKERS) -rs -m clients
@@ -38,7 +38,7 @@ test-pythons: ## lint and test on PYTHON and on the newest that this machine has
 test-lowest: ## test with the oldest versions of all that pyproject.toml asks for
 	@$(MAKE) --no-print-directory VENV=.venv-lowest LOWEST=1 test
 
-test-bare: $(TOOLS_READY) ## README's two commands on bare systems: SUITE="bookworm trixie" (the default), or sid
+test-bare: $(TOOLS_READY) ## README's two commands on bare systems: SUITE="bookworm trixie" (the default; all tests on the first), or sid
 	@tools/setup.sh bare
 	@tools/bare.sh $(or $(SUITE),bookworm trixie)
 

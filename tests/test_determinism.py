@@ -64,3 +64,13 @@ def test_another_recipe_gives_other_bytes(first: dict[str, bytes], tmp_path: Pat
     other = compiled(RECIPE.name, tmp_path, "out", SURROUNDINGS[0])
     # Plotters choke on comments: HP-GL carries no recipe unless it is told to.
     assert {name for name in first if other[name] == first[name]} == {"four-square.hpgl"}
+
+
+def test_random_tests_are_the_same_each_time_where_changes_are_judged() -> None:
+    # What a test asks of its own is said beside the profile, not instead of it.
+    script = "import tests.conftest, hypothesis; print(hypothesis.settings(max_examples=3).derandomize)"
+    judged = os.environ | {"CI": "true", "BATIK_LONG": "1"}
+    done = subprocess.run(
+        [sys.executable, "-c", script], cwd=ROOT, env=judged, capture_output=True, text=True
+    )
+    assert done.stdout.split() == ["True"], done.stderr

@@ -170,6 +170,23 @@ def test_bare_systems_ask_kindly_for_what_they_lack() -> None:
         assert other.stderr.endswith("please run: sudo make test-bare\n")
 
 
+def test_what_further_bare_systems_are_tried_with_is_there() -> None:
+    text = (ROOT / "tools" / "bare.sh").read_text(encoding="utf-8")
+    named = text.split("system='", 1)[1].split("'", 1)[0].split()
+    assert named
+    assert [each for each in named if not (ROOT / each).exists()] == []
+    (line,) = (
+        line
+        for line in (ROOT / "README.md").read_text(encoding="utf-8").splitlines()
+        if line.startswith("make test ")
+    )
+    # As bare.sh reads it, and puts them behind it.
+    assert line.partition("#")[0].rstrip() == "make test"
+    dry = ["make", "-n", "test", "ONLY=" + " ".join(named)]
+    asked = subprocess.run(dry, cwd=ROOT, capture_output=True, text=True)
+    assert asked.stdout.rstrip().endswith(" ".join(named))
+
+
 def test_every_python_is_found_once_and_a_failure_is_told_at_the_end(tmp_path: Path) -> None:
     (tmp_path / "tools").mkdir()
     shutil.copy(ROOT / "tools" / "pythons.sh", tmp_path / "tools")

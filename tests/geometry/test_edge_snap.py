@@ -68,7 +68,7 @@ def at_edge(edge: str, away: float, along: float) -> tuple[float, float]:
 
 
 @long
-@settings(max_examples=examples(6, 400), derandomize=True, deadline=None)
+@settings(max_examples=examples(6, 150), derandomize=True, deadline=None)
 @given(
     st.floats(0.2, 12).map(lambda r: round(r, 2)),
     st.floats(15, 85).map(lambda y: round(y, 2)),

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import gzip
-import os
 import random
 import sqlite3
 from pathlib import Path
@@ -160,7 +159,7 @@ def test_damage_is_told(tmp_path: Path) -> None:
     with Library(path) as library:
         library.add("dots", recipe())
     data = bytearray(path.read_bytes())
-    data[8192:-4096] = os.urandom(len(data) - 12288)
+    data[8192:-4096] = random.Random(1).randbytes(len(data) - 12288)
     path.write_bytes(data)
     with pytest.raises(LibraryError, match=r"is damaged|is no library"):
         _looked_through(path)

@@ -172,9 +172,9 @@ def test_killed_at_any_moment_it_goes_on_to_the_same_bytes(desk: Path) -> None:
     asked = ("--vary", "elements.count=3:40:38")
     good(*asked, "-o", "whole")
     command = [sys.executable, "-m", "batik_vector", "sweep", "dots.toml", *asked, "-o", "killed", "-j", "2"]
-    for turn in range(examples(2, 20)):
+    for turn in range(examples(2, 12)):
         begun = subprocess.Popen(command, stderr=subprocess.DEVNULL)
-        time.sleep(0.9 + 0.07 * turn)
+        time.sleep(0.9 + 0.12 * turn)
         begun.send_signal(signal.SIGKILL)
         begun.wait()
     time.sleep(0.5)

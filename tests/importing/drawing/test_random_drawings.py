@@ -19,7 +19,7 @@ from tests.thorough import examples, long
 
 @long
 @settings(
-    max_examples=examples(8, 1000), derandomize=True, deadline=None, suppress_health_check=list(HealthCheck)
+    max_examples=examples(8, 300), derandomize=True, deadline=None, suppress_health_check=list(HealthCheck)
 )
 @given(drawings())
 def test_a_motif_covers_what_is_painted(inner: str) -> None:

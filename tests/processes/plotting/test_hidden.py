@@ -62,7 +62,7 @@ def test_a_closed_stroke_that_is_cut_is_one_line_wherever_it_began() -> None:
 
 
 @long
-@settings(max_examples=examples(50, 1500), deadline=None)
+@settings(max_examples=examples(50, 800), deadline=None)
 @given(
     st.lists(st.lists(PLACE, min_size=2, max_size=5, unique=True), min_size=1, max_size=6),
     st.lists(st.lists(PLACE, min_size=3, max_size=7, unique=True), min_size=1, max_size=4),

@@ -55,7 +55,7 @@ def _fewest(segments: list[tuple[Place, Place]]) -> int:
 
 
 @long
-@settings(max_examples=examples(60, 3000), deadline=None)
+@settings(max_examples=examples(60, 1500), deadline=None)
 @given(POLYLINES)
 def test_the_same_is_drawn_with_as_few_lifts_as_can_be(parts: Any) -> None:
     drawn = once(strokes(*((closed and len(set(points)) > 2, points) for closed, points in parts)))[0]

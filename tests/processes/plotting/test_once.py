@@ -33,7 +33,7 @@ def _valid(parts: Any) -> Outlines:
 
 
 @long
-@settings(max_examples=examples(50, 2000), deadline=None)
+@settings(max_examples=examples(50, 1000), deadline=None)
 @given(POLYLINES)
 def test_what_is_left_is_the_union(parts: Any) -> None:
     drawn = _valid(parts)

@@ -29,7 +29,7 @@ def _by_hand(places: Any, start: Any, end: Any, reach: int) -> set[tuple[int, in
 
 
 @long
-@settings(max_examples=examples(80, 3000), deadline=None)
+@settings(max_examples=examples(80, 1500), deadline=None)
 @given(st.lists(PLACE, min_size=2, max_size=40, unique=True), REACH, AT_ONCE)
 def test_places_upon_segments_are_those_found_one_by_one(drawn: Any, reach: int, at_once: int) -> None:
     places, number = numbered(np.array(drawn, np.int64))
