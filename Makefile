@@ -7,6 +7,7 @@ BIN := $(VENV)/bin
 PY := $(BIN)/python
 READY := $(VENV)/.ready
 TOOLS_READY := $(VENV)/.tools-ready
+STUDIO_READY := $(VENV)/.studio-ready
 CLIENTS_READY := .venv/.clients-ready
 PEERS_READY := .venv-bench/.ready
 WORKERS := -n auto --maxprocesses 8 --dist worksteal
@@ -15,13 +16,16 @@ WORKERS := -n auto --maxprocesses 8 --dist worksteal
 export PYTHON VENV LOWEST
 unexport PYTHONPATH PYTHONHOME VIRTUAL_ENV
 
-.PHONY: help demo test test-clients test-long test-pythons test-lowest test-bare lint format bench golden docs setup clean
+.PHONY: help demo studio test test-clients test-long test-pythons test-lowest test-bare lint format bench golden docs setup clean
 
 help: ## list these verbs
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' $(firstword $(MAKEFILE_LIST)) | expand -t 22
 
 demo: $(READY) ## compile samples/four-square.toml to SVG, PDF, DXF and PNG in out/
 	$(BIN)/batik-vector compile samples/four-square.toml -o out -f svg,pdf,dxf,png
+
+studio: $(STUDIO_READY) ## open the studio in the browser
+	$(BIN)/batik-vector studio
 
 test: $(TOOLS_READY) ## run the tests; ONLY="tests/tiling tests/export": only those
 	$(PY) -m pytest $(WORKERS) -rs $(ONLY)
@@ -65,6 +69,10 @@ setup: $(TOOLS_READY) ## set up without doing anything else
 
 $(READY): pyproject.toml tools/setup.sh tools/lowest.py
 	@tools/setup.sh python
+	@touch $@
+
+$(STUDIO_READY): $(READY)
+	@tools/setup.sh studio
 	@touch $@
 
 # What only tests and checks need waits until they are asked for.

@@ -3,6 +3,7 @@
 #
 #   tools/setup.sh python     an environment with this package, and cairo
 #   tools/setup.sh tools      into the same, what tests and checks it
+#   tools/setup.sh studio     into the same, what the studio needs
 #   tools/setup.sh peers      .venv-bench with what the benchmarks measure us against
 #   tools/setup.sh clients    the real programs that tests/clients opens files in, vpype and readers of HPGL in .venv-vpype
 #   tools/setup.sh bare       what makes a bare system
@@ -122,7 +123,19 @@ python_ready() {
 tools_ready() {
     python_known
     environment "$venv"
-    installed "what tests it" '.[dev]'
+    # The studio asks for newer versions of what the package can do with older ones of.
+    if [ -n "${LOWEST:-}" ]; then
+        installed "what tests it" '.[dev]'
+    else
+        installed "what tests it" '.[dev,studio]'
+    fi
+    rm -f "$venv/.unfinished"
+}
+
+studio_ready() {
+    python_known
+    environment "$venv"
+    installed "the studio" '.[studio]'
     rm -f "$venv/.unfinished"
 }
 
@@ -182,13 +195,18 @@ clients_ready() {
     step "installing vpype into $plotting (pip)" pip_install "$plotting" --constraint benchmarks/requirements.txt vpype
     step "installing readers of HPGL into $plotting (pip)" pip_install "$plotting" ezhpgl==0.1.0a2 hpgl-buddy==1.8.0
     rm -f "$plotting/.unfinished"
+    # What drives the browser on the studio's page.
+    environment "$venv"
+    step "installing a driver of browsers into $venv (pip)" pip_install "$venv" playwright==1.65.2
+    rm -f "$venv/.unfinished"
 }
 
 case ${1:-} in
 python) python_ready ;;
 tools) tools_ready ;;
+studio) studio_ready ;;
 peers) peers_ready ;;
 clients) clients_ready ;;
 bare) programs_ready debootstrap:debootstrap git:git ;;
-*) fail "usage: tools/setup.sh python|tools|peers|clients|bare" ;;
+*) fail "usage: tools/setup.sh python|tools|studio|peers|clients|bare" ;;
 esac

@@ -28,6 +28,7 @@ from batik_vector.command.options import (
     set_option,
 )
 from batik_vector.command.stopping import EXITS, end_on_sigterm, listen
+from batik_vector.command.studio import studio_command
 from batik_vector.command.sweeps import random_command, sweep_command
 from batik_vector.command.telling import collecting, complain, faults_told, reported, stages
 from batik_vector.errors import BatikError, unknown_name
@@ -386,7 +387,14 @@ def new_command(name: str | None, kind: str | None, path: str | None, force: boo
     click.echo(f"{written} written. Next: batik-vector compile {written}", err=True)
 
 
-for _command in (sweep_command, random_command, import_command, export_motif_command, library_command):
+for _command in (
+    sweep_command,
+    random_command,
+    import_command,
+    export_motif_command,
+    library_command,
+    studio_command,
+):
     cli.add_command(_command)
 
 

@@ -1,0 +1,252 @@
+"""The display: the picture of the draft, its views and what is laid over it, and the line below it."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+from nicegui import background_tasks, ui
+
+from batik_vector.errors import BatikError
+from batik_vector.studio.page.parts import group, icon_button, say, text, toggled, word_button
+from batik_vector.studio.views import View
+
+if TYPE_CHECKING:
+    from batik_vector.studio.page.session import Session
+    from batik_vector.studio.pictures import Picture
+
+VIEWS = {
+    "tile": "Tile",
+    "three": "3 × 3",
+    "field": "Field",
+    "yardage": "Yardage",
+    "cushion": "Cushion",
+    "shirt": "Shirt",
+}
+REPEATS = {"tile": (1, 1), "three": (3, 3), "field": (4, 4)}
+"""Tiles across and up of views in which seams can be shown."""
+SLOW = 0.6
+"""Seconds of work from which on it is told, with a way to stop it."""
+CALM = 0.7
+"""Seconds without a change after which the tile is measured for its verdict."""
+
+
+class Display:
+    """The middle of the page."""
+
+    def __init__(self, session: Session) -> None:
+        self.session = session
+        self.client = ui.context.client
+        self.view = "tile"
+        self._asked = 0
+        self._on = {"lines": False, "guides": False, "pins": True}
+        self._inks: tuple[tuple[str, str], ...] = ()
+        self._hidden: set[str] = set()
+        self._verdict: asyncio.Task[None] | None = None
+        with group("middle", "main"):
+            with group("tools").props('role=toolbar aria-label="Display"'):
+                self._tools()
+            with group("stage-host"):
+                self.stage = group("display").on(
+                    "studio-zoom", self._zoomed, js_handler="(e) => emit(e.detail)", throttle=0.1
+                )
+                self.faults = group("faults").props("role=alert")
+                with group("busy").props("role=status") as self.busy:
+                    self.stage_words = text("", "small")
+                    word_button("Stop", self._stop)
+            with group("status", "footer"):
+                self._status()
+        self.faults.set_visibility(False)
+        self.busy.set_visibility(False)
+        self._run(f"studio.mount(getHtmlElement({self.stage.id}))")
+
+    def _tools(self) -> None:
+        self.views = {}
+        for name, label in VIEWS.items():
+            self.views[name] = word_button(label, lambda name=name: self.look(name))
+        self._mark_view()
+        group("space")
+        self._switch("lines", "polyline", "Lines instead of cloth and wax")
+        self._switch("guides", "grid_4x4", "Seam guides")
+        self._switch("pins", "push_pin", "Pointers of the certificate")
+        with (
+            icon_button("layers", "Layers", lambda: None),
+            ui.menu().props("aria-label=Layers") as self.layers,
+        ):
+            pass
+
+    def _status(self) -> None:
+        self.size = text("")
+        self.counted = text("", "extra")
+        self.seconds = text("", "extra")
+        self.verdict = text("")
+        group("space")
+        icon_button("remove", "Zoom out", lambda: self._run("studio.zoom(0.8)"))
+        self.zoom = text("100%", "zoom")
+        icon_button("add", "Zoom in", lambda: self._run("studio.zoom(1.25)"))
+        icon_button("fit_screen", "Fit the window", lambda: self._run("studio.fit()"))
+        word_button("1:1", lambda: self._run("studio.actual()")).props('aria-label="True size"')
+
+    def _switch(self, name: str, icon: str, label: str) -> None:
+        def press() -> None:
+            self._on[name] = not self._on[name]
+            toggled(button, self._on[name])
+            self._run(f"studio.{name}({json.dumps(self._on[name])})")
+
+        button = icon_button(icon, label, press)
+        toggled(button, self._on[name])
+
+    def look(self, view: str) -> None:
+        """Look at the draft in another way."""
+        self.view = view
+        self._mark_view()
+        self.refresh()
+
+    def _mark_view(self) -> None:
+        for name, button in self.views.items():
+            toggled(button, name == self.view)
+
+    def _zoomed(self, event: Any) -> None:
+        say(self.zoom, f"{event.args * 100:.0f}%")
+
+    def _run(self, code: str) -> None:
+        if not self.client.is_deleted:
+            self.client.run_javascript(code)
+
+    # Pictures.
+
+    def refresh(self) -> None:
+        """Ask for a picture of what is open now; of several wishes the newest counts."""
+        background_tasks.create(self._ask())
+
+    async def _ask(self) -> None:
+        self._asked += 1
+        mine = self._asked
+        alarm = asyncio.get_running_loop().call_later(SLOW, lambda: self._tell_busy(mine))
+        try:
+            picture = await self.session.images.ask(
+                self.session.draft, View(self.view), lane=self.client.id, tell=self._tell_stage
+            )
+        finally:
+            alarm.cancel()
+        if mine == self._asked:
+            self._show_busy(False)
+        if picture is not None and not self.client.is_deleted:
+            self._show(picture)
+
+    def _tell_busy(self, asked: int) -> None:
+        if asked == self._asked:
+            self._show_busy(True)
+
+    def _tell_stage(self, stage: str) -> None:
+        say(self.stage_words, stage)
+
+    def _show_busy(self, on: bool) -> None:
+        if self.busy.visible != on:
+            self.busy.set_visibility(on)
+
+    def _stop(self) -> None:
+        self.session.images.cancel(self.client.id)
+
+    def _show(self, picture: Picture) -> None:
+        self.session.compiled(picture)
+        self._tell_faults(picture)
+        if not picture.svg:
+            return
+        number = self.session.keep(picture.svg)
+        facts = picture.facts
+        meta = {"guides": self._guides(facts)}
+        self._run(f"studio.show('/studio/picture/{number}', {number}, {json.dumps(meta)})")
+        width, height = facts["cell_mm"]
+        say(self.size, f"{width:g} × {height:g} mm")
+        say(self.counted, f"{facts.get('vertices', 0):,} vertices")
+        say(self.seconds, f"{picture.seconds * 1000:.0f} ms")
+        self._list_layers(facts)
+        if self._verdict is not None:
+            self._verdict.cancel()
+        self._verdict = background_tasks.create(self._certify(picture))
+
+    def _tell_faults(self, picture: Picture) -> None:
+        told = picture.faults
+        self.faults.set_visibility(bool(told))
+        if not told:
+            return
+        self.faults.clear()
+        with self.faults:
+            for fault in told[:8]:
+                line = f"line {fault.line}: " if fault.line else ""
+                key = f"{fault.key}: " if fault.key else ""
+                text(f"{line}{key}{fault.message}", "fault", "p")
+            text("The picture above is the last that could be drawn.", "quiet small", "p")
+
+    def _guides(self, facts: Any) -> list[list[list[float]]]:
+        """Return where repeats meet, as lines in mm of the picture, y down."""
+        if self.view not in REPEATS:
+            return []
+        across, up = REPEATS[self.view]
+        width, height = facts["cell_mm"]
+        drop, by_column = self._drop()
+        lines = []
+        for column in range(across):
+            for row in range(up):
+                x, y = column * width, row * height
+                if by_column:
+                    # Columns stand higher by their share; y points down.
+                    y -= float(column * drop % 1) * height
+                else:
+                    x -= float((up - 1 - row) * drop % 1) * width
+                box = [[x, y], [x + width, y], [x + width, y + height], [x, y + height], [x, y]]
+                lines.append(box)
+        return lines
+
+    def _drop(self) -> tuple[Fraction, bool]:
+        try:
+            recipe = self.session.draft.recipe
+            if recipe.tile is None:
+                return Fraction(0), True
+            cell = recipe.tiling.cell()
+        except BatikError:
+            return Fraction(0), True
+        return cell.drop, cell.axis == "column"
+
+    def _list_layers(self, facts: Any) -> None:
+        inks = tuple((each["ink"], each["colour"]) for each in facts.get("layers", ()))
+        if inks == self._inks:
+            return
+        self._inks = inks
+        self.layers.clear()
+        with self.layers, group("layers"):
+            for name, colour in (("cloth", ""), *inks):
+                with group("layer"):
+                    ui.checkbox(
+                        name,
+                        value=name not in self._hidden,
+                        on_change=lambda event, name=name: self._layer(name, event.value),
+                    ).props("dense size=sm")
+                    group("dot").style(f"background: {colour}" if colour else "visibility: hidden")
+
+    def _layer(self, name: str, on: bool) -> None:
+        self._hidden.discard(name) if on else self._hidden.add(name)
+        self._run(f"studio.layer({json.dumps(name)}, {json.dumps(on)})")
+
+    async def _certify(self, picture: Picture) -> None:
+        await asyncio.sleep(CALM)
+        if picture.draft is not self.session.draft or self.client.is_deleted:
+            return
+        found = await self.session.images.ask(
+            picture.draft, View("tile", certify=True), lane="\0verdict", background=True
+        )
+        if found is None or not found.verdict or found.draft is not self.session.draft:
+            return
+        faults = found.verdict["faults"]
+        passed = found.verdict["passed"]
+        self.verdict.classes(replace="good" if passed else "bad")
+        say(self.verdict, "Seam certificate passed" if passed else f"{len(faults)} faults in the certificate")
+        height = found.facts["cell_mm"][1]
+        pins = [
+            {"x": each["where_mm"][0], "y": height - each["where_mm"][1], "text": each["words"]}
+            for each in (faults if self.view == "tile" else [])
+        ]
+        self._run(f"studio.setPins({json.dumps(pins)})")

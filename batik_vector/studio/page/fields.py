@@ -1,0 +1,256 @@
+"""One row of a panel: a control with its name, symbol, field, reset and lock."""
+
+from __future__ import annotations
+
+import math
+import tomllib
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any
+
+from nicegui import ui
+from nicegui.elements.mixins.value_element import ValueElement
+
+from batik_vector.studio.offers import COLOURS
+from batik_vector.studio.page.parts import group, icon_button, say, text
+from batik_vector.studio.rewriting import spelled
+
+if TYPE_CHECKING:
+    from batik_vector.studio.page.session import Session
+    from batik_vector.studio.parameters import Control
+
+OFTEN = 0.02
+"""Seconds between two values of a slider that is dragged."""
+DRAGGED = 0.4
+"""Seconds after a value during which its slider is not set from here: it is in somebody's hand."""
+
+
+class Slide(ValueElement[float]):
+    """A slider that moves in the browser at once, and tells its values as often as pictures can follow."""
+
+    LOOPBACK = False
+
+    def __init__(self, low: float, high: float, step: float, value: float) -> None:
+        super().__init__(tag="q-slider", value=value, throttle=OFTEN)
+        self.ends(low, high, step)
+
+    def ends(self, low: float, high: float, step: float) -> None:
+        """Set the ends, and the step between two values."""
+        for name, value in (("min", low), ("max", high), ("step", step)):
+            if self._props.get(name) != value:
+                self._props[name] = value
+
+
+def shown(value: Any) -> str:
+    """Return a value as a field shows it: numbers with no more figures than they have."""
+    if value is None:
+        return ""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, int | float):
+        return f"{value:.6g}" if math.isfinite(value) else ""
+    return value if isinstance(value, str) else spelled(value)
+
+
+def read(words: str) -> Any:
+    """Return what is typed into a field for lists: as a recipe has it, or words with commas between."""
+    words = words.strip()
+    if not words:
+        return None
+    try:
+        return tomllib.loads(f"x = {words}")["x"]
+    except tomllib.TOMLDecodeError:
+        return [each.strip() for each in words.strip("[]").split(",")]
+
+
+class Row:
+    """A control on the page."""
+
+    def __init__(self, session: Session, control: Control) -> None:
+        self.session, self.control = session, control
+        self._setting = False
+        sliding = control.span is not None
+        with group("control" if sliding else "control wide").props(f'data-path="{control.path}"') as self.box:
+            self._name()
+            self.slider = self._slide() if sliding else None
+            self.field = self._field()
+            self.reset = icon_button("restart_alt", f"Reset {self.words}", self._reset, tip=self._usual())
+            self.lock = icon_button(
+                "lock_open", f"Lock {self.words}", self._lock, tip="Lock: variations leave it"
+            )
+            self.fault = text("", "fault").props("role=alert")
+        self.update(control, force=True)
+
+    @property
+    def words(self) -> str:
+        """What the control is called, read out."""
+        around = self.control.path.rsplit(".", 2)
+        return f"{self.control.label} of {around[-2]}" if len(around) > 1 else self.control.label
+
+    def _usual(self) -> str:
+        usual = shown(self.control.default)
+        return f"Reset to {usual}" if usual else "Reset"
+
+    def _name(self) -> None:
+        with group("name", "span") as self.name:
+            text(self.control.label)
+            if self.control.symbol and self.control.symbol != self.control.label:
+                text(self.control.symbol, "", "i")
+            if self.control.help:
+                ui.tooltip(self._help()).props("delay=400 max-width=280px aria-hidden=true")
+
+    def _help(self) -> str:
+        bounds = (self.control.least, self.control.most)
+        told = f"; {shown(bounds[0])} to {shown(bounds[1])}" if None not in bounds else ""
+        return f"{self.control.help}{told} {self.control.unit}".strip()
+
+    def _labelled(self, element: ui.element) -> ui.element:
+        unit = f" in {self.control.unit}" if self.control.unit == "mm" else ""
+        element._props["aria-label"] = f"{self.words}{unit}"
+        return element
+
+    def _slide(self) -> Slide:
+        low, high = self.control.span or (0, 1)
+        made = Slide(low, high, self.control.step or 0.01, self._within(low, high))
+        made.props("dense").on("change", lambda: self.session.settle())
+        made.on_value_change(lambda event: self._slid(event.value))
+        self._labelled(made)
+        return made
+
+    def _within(self, low: float, high: float) -> float:
+        value = self.control.value
+        number = value if isinstance(value, int | float) and not isinstance(value, bool) else low
+        return min(max(float(number), low), high)
+
+    def _field(self) -> ui.element:
+        control = self.control
+        made: Any
+        if control.kind == "switch":
+            made = ui.switch(value=bool(control.value)).props("dense size=sm")
+            made.on_value_change(lambda event: self._set(event.value))
+        elif control.kind in ("choice", "names"):
+            made = self._select()
+        else:
+            made = ui.input(value=shown(control.value)).props("dense outlined hide-bottom-space")
+            made.on("blur", self._typed).on("keydown.enter", self._typed)
+            if control.unit:
+                made.props(f'suffix="{control.unit}"')
+            if control.kind == "text" and control.choices:
+                made.props(f'list="choices-{control.path}"')
+                with self.box, ui.element("datalist").props(f'id="choices-{control.path}"'):
+                    for each in control.choices:
+                        ui.element("option").props(f'value="{each}"')
+            if control.kind == "colour":
+                self._picker(made)
+        return self._labelled(made)
+
+    def _select(self) -> ui.select:
+        several = self.control.kind == "names"
+        made = ui.select(self._options(self.control.choices), multiple=several, value=self._chosen())
+        made.props("dense outlined options-dense hide-bottom-space").on_value_change(
+            lambda event: self._set(event.value)
+        )
+        return made
+
+    def _options(self, choices: Sequence[str]) -> dict[str, str]:
+        held = self.control.value
+        more = held if isinstance(held, list) else [held] if isinstance(held, str) else []
+        return {each: each or "as around" for each in dict.fromkeys([*choices, *map(str, more)])}
+
+    def _chosen(self) -> Any:
+        value = self.control.value
+        if self.control.kind == "names":
+            return list(value) if isinstance(value, list) else [] if value is None else [value]
+        return value if isinstance(value, str) else None
+
+    def _picker(self, field: ui.input) -> None:
+        with field.add_slot("prepend"):
+            button = (
+                ui.button(color=None).props(f'flat dense aria-label="Choose {self.words}"').classes("swatch")
+            )
+            with button, ui.color_picker(on_pick=lambda event: self._set(event.color)) as picker:
+                picker.q_color.props(
+                    f"default-view=palette :palette={list(COLOURS)!r} format-model=hex no-header"
+                )
+        self.swatch = button
+
+    # What is done to it.
+
+    def _slid(self, value: float) -> None:
+        if self._setting or value is None:
+            return
+        value = round(value) if self.control.kind == "whole" else float(f"{value:.6g}")
+        self._set(value, merge=self.control.path)
+        if isinstance(self.field, ui.input):
+            self._quietly(lambda: setattr(self.field, "value", shown(value)))
+
+    def _typed(self) -> None:
+        assert isinstance(self.field, ui.input)
+        words = str(self.field.value or "").strip()
+        if words == shown(self.control.value):
+            return
+        value: Any = words or None
+        if words and self.control.kind in ("number", "whole"):
+            try:
+                value = float(words.replace(",", "."))
+                value = int(value) if self.control.kind == "whole" and value == int(value) else value
+            except (ValueError, OverflowError):
+                # Lengths may be said in other units; what is no number at all is told as a fault.
+                value = words
+        elif words and self.control.kind == "list":
+            value = read(words)
+        self._set(value)
+
+    def _set(self, value: Any, merge: str = "") -> None:
+        if not self._setting:
+            self.session.set_value(self.control.path, value, merge)
+
+    def _reset(self) -> None:
+        self.session.set_value(self.control.path, None)
+
+    def _lock(self) -> None:
+        self.session.lock(self.control.path, not self.control.locked)
+
+    def _quietly(self, action: Callable[[], Any]) -> None:
+        self._setting = True
+        try:
+            action()
+        finally:
+            self._setting = False
+
+    # What is shown of it.
+
+    def update(self, control: Control, *, force: bool = False) -> None:
+        """Show a control as it is now."""
+        if control == self.control and not force:
+            return
+        self.control = control
+        self._quietly(self._show)
+        self.name.classes(add="" if control.is_set else "unset", remove="unset" if control.is_set else "")
+        gone = not control.is_set or control.needed
+        self.reset.classes(add="gone" if gone else "", remove="" if gone else "gone")
+        self.lock.classes(add="locked" if control.locked else "", remove="" if control.locked else "locked")
+        icon = "lock" if control.locked else "lock_open"
+        if self.lock._props.get("icon") != icon:
+            self.lock.props(f"icon={icon} aria-pressed={'true' if control.locked else 'false'}")
+        say(self.fault, control.fault)
+        self.fault.set_visibility(bool(control.fault))
+
+    def _show(self) -> None:
+        control = self.control
+        if self.slider is not None and control.span is not None:
+            self.slider.ends(*control.span, control.step or 0.01)
+            within = self._within(*control.span)
+            if self.slider.value != within:
+                self.slider.set_value(within)
+        field: Any = self.field
+        value: Any = self._chosen() if isinstance(field, ui.select) else shown(control.value)
+        if isinstance(field, ui.select):
+            options = self._options(control.choices)
+            if field.options != options:
+                field.set_options(options)
+        elif control.kind == "switch":
+            value = bool(control.value)
+        if field.value != value:
+            field.set_value(value)
+        if control.kind == "colour":
+            self.swatch.style(f"background: {shown(control.value)} !important")

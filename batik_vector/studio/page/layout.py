@@ -1,0 +1,132 @@
+"""The page: a bar of commands, the library on the left, the display, and parameters on the right."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from nicegui import ui
+
+from batik_vector.errors import BatikError
+from batik_vector.studio.page.commands import Commands
+from batik_vector.studio.page.controls import Controls
+from batik_vector.studio.page.display import Display
+from batik_vector.studio.page.library import LibraryPanel, VersionsPanel
+from batik_vector.studio.page.parts import group, icon_button, say, text
+from batik_vector.studio.page.recipe_text import RecipeText
+
+if TYPE_CHECKING:
+    from batik_vector.studio.page.session import Session
+
+HEAD = (
+    '<link rel="stylesheet" href="/studio/static/studio.css">'
+    '<script src="/studio/static/display.js"></script>'
+)
+MARK = (
+    '<svg viewBox="0 0 32 32" aria-hidden="true"><g fill="none" stroke="currentColor" stroke-width="2.4">'
+    '<ellipse cx="16" cy="7.6" rx="4" ry="6.4"/><ellipse cx="16" cy="24.4" rx="4" ry="6.4"/>'
+    '<ellipse cx="7.6" cy="16" rx="6.4" ry="4"/><ellipse cx="24.4" cy="16" rx="6.4" ry="4"/></g></svg>'
+)
+
+
+def page_of(session: Session) -> Callable[[], None]:
+    """Return what builds the page for each tab that is opened."""
+
+    def page() -> None:
+        Page(session)
+
+    return page
+
+
+class Page:
+    """One tab of the studio."""
+
+    def __init__(self, session: Session) -> None:
+        self.session = session
+        ui.add_head_html(HEAD)
+        ui.colors(primary="#2b4a8b")
+        self.dark = ui.dark_mode(None)
+        self.commands = Commands(session)
+        self.frame = group("frame")
+        with self.frame:
+            with group("bar", "header"):
+                self._bar()
+            with group("side left", "aside").props('aria-label="Library"'):
+                self._left()
+            self.display = Display(session)
+            with group("side right", "aside").props('aria-label="Parameters"'):
+                self._right()
+        self.commands.keys()
+        client = ui.context.client
+        forget = session.listen(self.refresh)
+        client.on_delete(forget)
+        client.on_connect(self._look_at_screen)
+        ui.on("studio-pasted", self._pasted)
+        ui.on("studio-refused", lambda event: ui.notify(str(event.args), type="negative"))
+        self.refresh()
+
+    def _bar(self) -> None:
+        icon_button("menu", "Library", self._open_left).classes("narrow")
+        with group("brand"):
+            ui.html(MARK, sanitize=False)
+            text("batik_vector", "wide")
+        self.commands.menus()
+        with group("what"):
+            self.title = text("", "title", "h1")
+            self.state = text("", "chip")
+        self.commands.buttons()
+        icon_button("contrast", "Light or dark", self._contrast)
+
+    def _left(self) -> None:
+        with ui.tabs().props("align=left dense no-caps") as tabs:
+            ui.tab("library", "Library")
+            ui.tab("versions", "Versions")
+        with ui.tab_panels(tabs, value="library").props("animated=false keep-alive"):
+            with ui.tab_panel("library"):
+                LibraryPanel(self.session)
+            with ui.tab_panel("versions"):
+                self.versions = VersionsPanel(self.session)
+        tabs.on_value_change(lambda event: self.versions.shown(event.value == "versions"))
+
+    def _right(self) -> None:
+        with ui.tabs().props("align=left dense no-caps") as tabs:
+            ui.tab("parameters", "Parameters")
+            ui.tab("recipe", "Recipe")
+        with ui.tab_panels(tabs, value="parameters").props("animated=false keep-alive"):
+            with ui.tab_panel("parameters"):
+                self.controls = Controls(self.session)
+            with ui.tab_panel("recipe"):
+                self.recipe = RecipeText(self.session)
+        tabs.on_value_change(lambda event: self.recipe.shown(event.value == "recipe"))
+
+    def refresh(self) -> None:
+        """Show what is open now."""
+        say(self.title, self.session.title)
+        say(self.state, self.session.state)
+        self.commands.refresh()
+        self.controls.refresh()
+        self.recipe.refresh()
+        self.versions.refresh()
+        self.display.refresh()
+
+    def _pasted(self, event: Any) -> None:
+        try:
+            self.session.paste(str(event.args))
+        except BatikError as error:
+            ui.notify(str(error), type="negative")
+
+    def _open_left(self) -> None:
+        self.frame.classes(toggle="open")
+
+    async def _look_at_screen(self) -> None:
+        """Begin dark where the system is."""
+        if self.dark.value is None:
+            dark = await ui.run_javascript("matchMedia('(prefers-color-scheme: dark)').matches", timeout=5)
+            self._set_dark(bool(dark))
+
+    def _set_dark(self, dark: bool) -> None:
+        self.dark.value = dark
+        self.recipe.darken(dark)
+
+    def _contrast(self) -> None:
+        self._set_dark(not self.dark.value)

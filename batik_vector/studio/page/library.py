@@ -1,0 +1,147 @@
+"""The left of the page: patterns of the library, found by words and features, and one's versions."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import TYPE_CHECKING
+from urllib.parse import quote
+
+from nicegui import background_tasks, ui
+
+from batik_vector.errors import BatikError
+from batik_vector.studio.page.parts import group, say, text
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from typing import Any
+
+    from batik_vector.studio.page.session import Session
+
+CONDITION = ("<", ">", "=", "..")
+"""What a search holds where it is a condition on features."""
+SHOWN_AT_ONCE = 60
+
+
+def card(name: str, label: str, said: str, action: Callable[..., Any], version: int) -> ui.element:
+    """Return a pattern's picture with its name below, as a button."""
+    made = ui.element("button").classes("pattern").props(f'type=button title="{_attribute(said)}"')
+    with made:
+        address = f"/studio/thumbnail?name={quote(f'{name}@{version}')}"
+        ui.element("img").props(f'src="{address}" alt="" loading=lazy decoding=async')
+        text(label, "name")
+    return made.on("click", action)
+
+
+def _attribute(words: str) -> str:
+    return words.replace("&", "&amp;").replace('"', "&quot;")
+
+
+class LibraryPanel:
+    """Patterns of the library."""
+
+    def __init__(self, session: Session) -> None:
+        self.session = session
+        self._asked = 0
+        with group("column"):
+            with group("searching"):
+                self.words = (
+                    ui.input(placeholder="Search: kawung, petals = 8")
+                    .props('dense outlined clearable debounce=200 aria-label="Search the library"')
+                    .on_value_change(self.refresh)
+                )
+                with self.words.add_slot("prepend"):
+                    ui.icon("search", size="18px")
+                with group("line"):
+                    self.own = (
+                        ui.checkbox("Mine only", on_change=self.refresh)
+                        .props("dense size=sm")
+                        .classes("small")
+                    )
+                    self.said = text("", "quiet small").props("role=status")
+            with group("scroll grow"):
+                self.shelf = group("shelf")
+        session.on_library(self.refresh)
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Look again."""
+        background_tasks.create(self._find())
+
+    async def _find(self) -> None:
+        self._asked += 1
+        mine = self._asked
+        words = (self.words.value or "").strip()
+        where = words if any(each in words for each in CONDITION) else ""
+        try:
+            found = await self.session.shelf.find("" if where else words, where, own=bool(self.own.value))
+        except BatikError as error:
+            say(self.said, str(error))
+            return
+        if mine != self._asked:
+            return
+        say(self.said, "" if found else "Nothing found.")
+        # Own patterns first: they are what one comes back for.
+        found.sort(key=lambda hit: hit.included)
+        self.shelf.clear()
+        with self.shelf:
+            for hit in found[:SHOWN_AT_ONCE]:
+                label = hit.title or hit.name
+                card(
+                    hit.name,
+                    label,
+                    f"{label} ({hit.name})",
+                    lambda hit=hit: self._open(hit.name),
+                    hit.version,
+                )
+        if len(found) > SHOWN_AT_ONCE:
+            say(self.said, f"{SHOWN_AT_ONCE} of {len(found)} patterns")
+
+    async def _open(self, name: str) -> None:
+        try:
+            await self.session.open_pattern(name)
+        except BatikError as error:
+            ui.notify(str(error), type="negative")
+
+
+class VersionsPanel:
+    """Versions of the pattern that is open, the newest first."""
+
+    def __init__(self, session: Session) -> None:
+        self.session = session
+        self._seen = False
+        self._drawn: tuple[str, int] | None = None
+        with group("scroll"):
+            self.words = text("", "quiet small pad", "p")
+            self.shelf = group("shelf")
+        session.on_library(self.refresh)
+
+    def shown(self, seen: bool) -> None:
+        """Tell whether it is looked at."""
+        self._seen = seen
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Look again, where it is looked at."""
+        if self._seen:
+            background_tasks.create(self._list())
+
+    async def _list(self) -> None:
+        name = self.session.pattern
+        found = await self.session.shelf.versions(name) if name else []
+        state = name, len(found)
+        if state == self._drawn:
+            return
+        self._drawn = state
+        say(self.words, "" if found else "Save the pattern to the library, and its versions are kept here.")
+        self.shelf.clear()
+        with self.shelf:
+            for each in found:
+                said = f"{each.name}@{each.number}, saved {each.saved[:16].replace('T', ' ')}"
+                with card(
+                    each.name, f"Version {each.number}", said, lambda each=each: self._open(each), each.number
+                ):
+                    text(each.saved[:16].replace("T", " "), "name quiet")
+
+    async def _open(self, version: Any) -> None:
+        await asyncio.sleep(0)
+        await self.session.open_pattern(f"{version.name}@{version.number}")

@@ -1,0 +1,60 @@
+"""Small pieces that the page is put together from: buttons that say what they do, and groups of elements."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from nicegui import ui
+
+
+def icon_button(icon: str, label: str, action: Callable[..., Any], *, tip: str = "") -> ui.button:
+    """Return a button with a picture alone; its label is read out, and told when it is pointed at."""
+    made = (
+        ui.button(icon=icon, on_click=action, color=None)
+        .props(f'flat dense aria-label="{label}"')
+        .classes("plain")
+    )
+    with made:
+        ui.tooltip(tip or label).props("delay=500 aria-hidden=true")
+    return made
+
+
+def word_button(
+    label: str, action: Callable[..., Any] | None = None, *, icon: str | None = None
+) -> ui.button:
+    """Return a quiet button with a word on it."""
+    return (
+        ui.button(label, on_click=action, icon=icon, color=None).props("flat dense no-caps").classes("plain")
+    )
+
+
+def main_button(label: str, action: Callable[..., Any]) -> ui.button:
+    """Return the button for what one most likely wants."""
+    return ui.button(label, on_click=action, color=None).props("unelevated no-caps").classes("accent")
+
+
+def group(classes: str, tag: str = "div") -> ui.element:
+    """Return a plain box."""
+    return ui.element(tag).classes(classes)
+
+
+def text(words: str, classes: str = "", tag: str = "span") -> ui.element:
+    """Return words in a box; what they say is set by :func:`say`."""
+    made = ui.element(tag).classes(classes)
+    say(made, words)
+    return made
+
+
+def say(element: ui.element, words: str) -> None:
+    """Set what a box of :func:`text` says, where that is something else."""
+    if element._text != words:
+        element._text = words
+        element.update()
+
+
+def toggled(button: ui.button, on: bool) -> None:
+    """Show whether a button that stays pressed is so."""
+    (button.classes(add="on") if on else button.classes(remove="on")).props(
+        f"aria-pressed={'true' if on else 'false'}"
+    )

@@ -1,0 +1,136 @@
+"""The shelf: patterns of the library with small pictures, which are drawn in a process beside the studio.
+
+A library is used by one thread, and each call here opens and closes it in its own. A picture that was never
+drawn takes a compile, so that is done by a process of its own, one picture at a time.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import multiprocessing
+import signal
+from collections.abc import Sequence
+from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from typing import TYPE_CHECKING, TypeVar
+
+from batik_vector.errors import BatikError, LibraryError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from batik_vector.library import Library
+    from batik_vector.library.searching import Hit
+    from batik_vector.library.values import Saved, Version
+    from batik_vector.recipe.model import Recipe
+
+_T = TypeVar("_T")
+
+PATIENCE = 60.0
+"""Seconds that one small picture may take."""
+MOST_FOUND = 400
+"""Patterns that a search shows."""
+
+
+class Shelf:
+    """The patterns of one library."""
+
+    def __init__(self, path: str | None = None) -> None:
+        """Look into a library; the user's own where no path is given."""
+        self.path = path
+        self._pool: ProcessPoolExecutor | None = None
+        self._turn = asyncio.Lock()
+
+    async def find(self, words: str, where: str = "", *, own: bool = False) -> list[Hit]:
+        """Return the patterns that are found; see :meth:`batik_vector.library.Library.search`.
+
+        Raises:
+            LibraryError: where a condition is wrong, or the library cannot be opened.
+        """
+        return await self._ask(lambda library: library.search(words, where=where, own=own, limit=MOST_FOUND))
+
+    async def versions(self, name: str) -> list[Version]:
+        """Return all versions of a pattern, the newest first; none where there is no such pattern."""
+
+        def asked(library: Library) -> list[Version]:
+            try:
+                return library.history(name)[::-1]
+            except LibraryError:
+                return []
+
+        return await self._ask(asked)
+
+    async def version(self, reference: str) -> Version:
+        """Return a version, ``kawung@3``, or the newest.
+
+        Raises:
+            LibraryError: where there is none.
+        """
+        return await self._ask(lambda library: library.version(reference))
+
+    async def save(self, name: str, recipe: Recipe, tags: Sequence[str] = (), note: str = "") -> Saved:
+        """Save a recipe as the newest version of a pattern.
+
+        Raises:
+            BatikError: where it does not compile, the name is none, or the library cannot be written.
+        """
+        return await self._ask(
+            lambda library: library.add(name, recipe, tags=tags, note=note, origin="studio")
+        )
+
+    async def restore(self, reference: str) -> Saved:
+        """Make an old version the newest."""
+        return await self._ask(lambda library: library.restore(reference))
+
+    async def _ask(self, question: Callable[[Library], _T]) -> _T:
+        return await asyncio.to_thread(_asked, self.path, question)
+
+    async def picture(self, reference: str) -> bytes:
+        """Return the small picture of a version as SVG.
+
+        Raises:
+            BatikError: where it cannot be drawn.
+        """
+        svg = await self._ask(lambda library: library.about(reference).svg)
+        if svg:
+            return svg
+        async with self._turn:
+            if self._pool is None:
+                self._pool = ProcessPoolExecutor(
+                    1, multiprocessing.get_context("spawn"), signal.signal, (signal.SIGINT, signal.SIG_IGN)
+                )
+            work = self._pool.submit(_drawn, self.path, reference)
+            try:
+                svg = await asyncio.wait_for(asyncio.wrap_future(work), PATIENCE)
+            except (TimeoutError, BrokenProcessPool) as error:
+                self.close()
+                raise LibraryError(f"{reference} could not be drawn") from error
+        if not svg:
+            raise LibraryError(f"{reference} could not be drawn")
+        return svg
+
+    def close(self) -> None:
+        """End the process that draws, whatever it is at."""
+        pool, self._pool = self._pool, None
+        if pool is not None:
+            for process in list(pool._processes.values()):
+                process.kill()
+            pool.shutdown(wait=False, cancel_futures=True)
+
+
+def _asked(path: str | None, question: Callable[[Library], _T]) -> _T:
+    from batik_vector.library import Library
+
+    with Library(path) as library:
+        return question(library)
+
+
+def _drawn(path: str | None, reference: str) -> bytes:
+    """Draw a picture and keep it in the library; empty where the recipe does not compile."""
+    from batik_vector.library import Library
+
+    try:
+        with Library(path) as library:
+            return library.details(reference).svg
+    except BatikError:
+        return b""
