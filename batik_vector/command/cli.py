@@ -18,10 +18,9 @@ import click
 from batik_vector._version import __version__
 from batik_vector.command.drawings import export_motif_command, import_command
 from batik_vector.command.library import library_command
+from batik_vector.command.made_files import called, files_options, tell_files
 from batik_vector.command.options import (
-    FORMATS,
     Finite,
-    format_names,
     jobs_option,
     json_option,
     recipes_argument,
@@ -31,6 +30,7 @@ from batik_vector.command.stopping import EXITS, end_on_sigterm, listen
 from batik_vector.command.studio import studio_command
 from batik_vector.command.sweeps import random_command, sweep_command
 from batik_vector.command.telling import collecting, complain, faults_told, reported, stages
+from batik_vector.command.watch import watch_command
 from batik_vector.errors import BatikError, unknown_name
 
 if TYPE_CHECKING:
@@ -112,25 +112,7 @@ def cli(library: str | None) -> None:
 
 @cli.command("compile")
 @recipes_argument
-@click.option(
-    "-o", "folder", default=".", metavar="DIR", help="Where files go; made if missing.  [default: .]"
-)
-@click.option(
-    "-f",
-    "formats",
-    multiple=True,
-    callback=format_names,
-    metavar="FORMAT,…",
-    help=f"{', '.join(FORMATS)}.  [default: what the recipe asks for, or svg]",
-)
-@click.option(
-    "--process",
-    "processes",
-    multiple=True,
-    metavar="WORDS",
-    help='What a machine needs done first, as in "cut kerf=0.15mm"; several are done in turn.',
-)
-@click.option("--machine", metavar="NAME", help="The machine it is for: a profile's name, or FILE.toml.")
+@files_options
 @set_option
 @jobs_option
 @json_option
@@ -156,29 +138,15 @@ def compile_command(
 
     collecting()
     with reported(as_json) as report:
-        called = _called(processes, machine)
-        work, lacking = ready(planned(read_jobs(matching(recipes), overrides), Path(folder), formats, called))
+        keys = called(processes, machine)
+        work, lacking = ready(planned(read_jobs(matching(recipes), overrides), Path(folder), formats, keys))
         for done in _made(work, jobs, as_json, report):
             report["recipes"].append(done)
-            _tell_files(done)
+            tell_files(done)
         for error in lacking:
             # What can be made is made, and this is the last that people read.
             with faults_told(report):
                 raise error
-
-
-def _called(processes: Sequence[str], machine: str | None) -> dict[str, Any]:
-    """Return the keys of outputs that a call sets for all files."""
-    called: dict[str, Any] = {}
-    if processes:
-        from batik_vector.recipe.reading.called_processes import read_processes
-
-        called["process"] = read_processes(processes)
-    if machine is not None:
-        from batik_vector.recipe.reading.machines import read_machine
-
-        called |= {"machine": machine, "machine_profile": read_machine(machine)}
-    return called
 
 
 def _made(work: Sequence[Job], workers: int, quiet: bool, report: dict[str, Any]) -> Iterator[dict[str, Any]]:
@@ -201,31 +169,6 @@ def _made(work: Sequence[Job], workers: int, quiet: bool, report: dict[str, Any]
                 yield outcome.result
             with faults_told(report):
                 outcome.check()
-
-
-def _tell_files(done: dict[str, Any]) -> None:
-    from batik_vector.command.process_reports import told_of
-    from batik_vector.command.reports import made_of
-
-    before: list[str] = []
-    for file in done["files"]:
-        width, height = (f"{side:g}" for side in file["size_mm"])
-        size = _bytes(file["bytes"])
-        click.echo(f"{file['path']}  {size}  {width} × {height} mm  {file['seconds']:.2f} s", err=True)
-        # What went through the same takes the same: that is told once.
-        lines = [f"  {words}" for words in told_of(file.get("process", {}))]
-        for words in lines if lines != before else ():
-            click.echo(words, err=True)
-        before = lines or before
-    for words in done["warnings"]:
-        click.echo(f"{done['recipe']}: warning: {words}", err=True)
-    for words in made_of(done):
-        click.echo(f"{done['recipe']}: {words}", err=True)
-    click.echo(f"{done['recipe']}: {done['vertices']:,} vertices in {done['seconds']:.2f} s", err=True)
-
-
-def _bytes(count: int) -> str:
-    return f"{count / 1e6:.1f} MB" if count >= 1e6 else f"{count / 1e3:.1f} kB"
 
 
 def _limit(name: str, metavar: str, says: str, option: str = "") -> Callable[[Any], Any]:
@@ -282,7 +225,7 @@ def check_command(
     collecting()
     with reported(as_json) as report:
         given = {name: value for name, value in limits.items() if value is not None}
-        profile = _called((), machine).get("machine_profile")
+        profile = called((), machine).get("machine_profile")
         wishes = Wishes(repeat or "", group or "", given, lenient, profile, machine or "")
         places = pointer_files(sources, Path(pointers)) if pointers is not None else {}
         found = []
@@ -388,6 +331,7 @@ def new_command(name: str | None, kind: str | None, path: str | None, force: boo
 
 
 for _command in (
+    watch_command,
     sweep_command,
     random_command,
     import_command,

@@ -39,7 +39,7 @@ _DROP = re.compile(r"\s*drop\s+(\d+)/(\d+)\s*")
 
 
 def mirrored(draft: Draft, path: Where = (), *, upright: bool = True) -> Draft:
-    """Return a draft with a placement mirrored about its own place; without one, all about the middle of its unit.
+    """Return a draft with a placement mirrored about its own place; without one, all about its unit's middle.
 
     Args:
         draft: that reads.

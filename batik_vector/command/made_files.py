@@ -1,0 +1,79 @@
+"""What `batik-vector compile` and `watch` share: what a call sets for all files, and what is told of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import click
+
+from batik_vector.command.options import FORMATS, format_names
+
+_OPTIONS = (
+    click.option(
+        "-o", "folder", default=".", metavar="DIR", help="Where files go; made if missing.  [default: .]"
+    ),
+    click.option(
+        "-f",
+        "formats",
+        multiple=True,
+        callback=format_names,
+        metavar="FORMAT,…",
+        help=f"{', '.join(FORMATS)}.  [default: what the recipe asks for, or svg]",
+    ),
+    click.option(
+        "--process",
+        "processes",
+        multiple=True,
+        metavar="WORDS",
+        help='What a machine needs done first, as in "cut kerf=0.15mm"; several are done in turn.',
+    ),
+    click.option("--machine", metavar="NAME", help="The machine it is for: a profile's name, or FILE.toml."),
+)
+
+
+def files_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Give a command the options that say which files are made, and where."""
+    for option in reversed(_OPTIONS):
+        command = option(command)
+    return command
+
+
+def called(processes: Sequence[str], machine: str | None) -> dict[str, Any]:
+    """Return the keys of outputs that a call sets for all files."""
+    keys: dict[str, Any] = {}
+    if processes:
+        from batik_vector.recipe.reading.called_processes import read_processes
+
+        keys["process"] = read_processes(processes)
+    if machine is not None:
+        from batik_vector.recipe.reading.machines import read_machine
+
+        keys |= {"machine": machine, "machine_profile": read_machine(machine)}
+    return keys
+
+
+def tell_files(done: dict[str, Any]) -> None:
+    """Tell people of the files of a recipe: their sizes, what processes did, warnings, and the time."""
+    from batik_vector.command.process_reports import told_of
+    from batik_vector.command.reports import made_of
+
+    before: list[str] = []
+    for file in done["files"]:
+        width, height = (f"{side:g}" for side in file["size_mm"])
+        size = _bytes(file["bytes"])
+        click.echo(f"{file['path']}  {size}  {width} × {height} mm  {file['seconds']:.2f} s", err=True)
+        # What went through the same takes the same: that is told once.
+        lines = [f"  {words}" for words in told_of(file.get("process", {}))]
+        for words in lines if lines != before else ():
+            click.echo(words, err=True)
+        before = lines or before
+    for words in done["warnings"]:
+        click.echo(f"{done['recipe']}: warning: {words}", err=True)
+    for words in made_of(done):
+        click.echo(f"{done['recipe']}: {words}", err=True)
+    click.echo(f"{done['recipe']}: {done['vertices']:,} vertices in {done['seconds']:.2f} s", err=True)
+
+
+def _bytes(count: int) -> str:
+    return f"{count / 1e6:.1f} MB" if count >= 1e6 else f"{count / 1e3:.1f} kB"
