@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from batik_vector.errors import Fault as Fault
     from batik_vector.errors import GeometryError as GeometryError
     from batik_vector.errors import LibraryError as LibraryError
+    from batik_vector.errors import MachineProfileError as MachineProfileError
     from batik_vector.errors import MissingLibraryError as MissingLibraryError
     from batik_vector.errors import RecipeError as RecipeError
     from batik_vector.errors import SeamError as SeamError
@@ -73,6 +74,7 @@ _HOMES = {
         "Fault",
         "GeometryError",
         "LibraryError",
+        "MachineProfileError",
         "MissingLibraryError",
         "RecipeError",
         "SeamError",

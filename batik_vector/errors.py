@@ -2,7 +2,8 @@
 
     BatikError
     ├ RecipeError (ValueError)        kawung.toml:12: motif.curve.n = 0, expected 1 to 48
-    │ └ UnknownNameError              "rosee": did you mean "rose"?
+    │ ├ UnknownNameError              "rosee": did you mean "rose"?
+    │ └ MachineProfileError           the profile of a machine where a recipe was expected
     ├ GeometryError (ValueError)      a shape that cannot be built, in geometry's own words
     │ ├ TornRingError                 a map would tear a ring at a branch cut or a pole
     │ └ TooLargeError                 the work would not fit: says how large it would be
@@ -58,6 +59,10 @@ class UnknownNameError(RecipeError):
 
     def __init__(self, name: str, known: Sequence[str], what: str = "name") -> None:
         super().__init__(unknown_name(name, known, what))
+
+
+class MachineProfileError(RecipeError):
+    """The profile of a machine where a recipe was expected: both are pages of TOML."""
 
 
 class GeometryError(BatikError, ValueError):

@@ -9,7 +9,7 @@ import click
 
 from batik_vector.command.library_options import as_json_option, file_option, report_of
 from batik_vector.command.options import workers_of
-from batik_vector.command.telling import collecting, faults_told, reported
+from batik_vector.command.telling import collecting, counted, faults_told, reported
 from batik_vector.errors import ExportError, LibraryError, unknown_name
 from batik_vector.values import frozen
 
@@ -28,7 +28,7 @@ FORMATS = ("toml", "svg", "pdf", "dxf", "gcode", "png", "zip")
 
 @click.command("add", short_help="Save recipes.")
 @click.argument("paths", nargs=-1, required=True, metavar="RECIPE|FOLDER|ZIP…")
-@click.option("--name", default="", metavar="NAME", help="What it is called.  [default: as its file]")
+@click.option("--name", metavar="NAME", help="What it is called.  [default: as its file]")
 @click.option("--tag", "tags", multiple=True, metavar="TAG", help="That it gets; may be given again.")
 @click.option("--note", default="", metavar="TEXT", help="A note on it.")
 @click.option(
@@ -44,7 +44,7 @@ FORMATS = ("toml", "svg", "pdf", "dxf", "gcode", "png", "zip")
 @as_json_option
 def add_command(
     paths: Sequence[str],
-    name: str,
+    name: str | None,
     tags: Sequence[str],
     note: str,
     processes: int,
@@ -65,6 +65,8 @@ def add_command(
         del report["recipes"]
         report["patterns"] = []
         found = arrivals(paths, name)
+        for each in found.profiles:
+            click.echo(f"{each} is the profile of a machine, and left out", err=True)
         for error in found.faults:
             with faults_told(report):
                 raise error
@@ -226,7 +228,7 @@ def _zip(library: Library, names: Sequence[str], folder: Path, force: bool) -> d
         count = zipped(library, list(wholes), sink)
 
     write_all_whole([(target, write)])
-    click.echo(f"{target}  {len(wholes):,} patterns, {count:,} versions", err=True)
+    click.echo(f"{target}  {counted(len(wholes), 'pattern')}, {counted(count, 'version')}", err=True)
     return {"path": str(target), "format": "zip", "patterns": len(wholes), "versions": count}
 
 

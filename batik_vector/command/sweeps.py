@@ -8,14 +8,15 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from batik_vector.command.options import Finite, format_names, jobs_option, json_option, set_option
-from batik_vector.command.telling import collecting, complain, reported
+from batik_vector.command.telling import collecting, complain, counted, reported
 from batik_vector.errors import unknown_name
 from batik_vector.values import frozen
 
 if TYPE_CHECKING:
+    from batik_vector.making.manifest import Made
     from batik_vector.making.pool import Outcome
     from batik_vector.making.sheets import Plan
-    from batik_vector.making.sweeping import Made, Making, Sweep
+    from batik_vector.making.sweeping import Making, Sweep
     from batik_vector.making.variants import Variant
 
 SHEET_FORMATS = ("svg", "pdf", "png")
@@ -246,8 +247,7 @@ def _wishes(**given: Any) -> Wishes:
 def _tell_plan(planned: Sweep) -> None:
     for variant in planned.variants[:MOST_TOLD]:
         click.echo(f"{variant.name}  {'  '.join(variant.changes)}", err=True)
-    count = len(planned.variants)
-    click.echo(f"{count:,} variant{'s' * (count != 1)}; nothing is written", err=True)
+    click.echo(f"{counted(len(planned.variants), 'variant')}; nothing is written", err=True)
 
 
 def _make(
@@ -280,7 +280,7 @@ def _make(
     there = len(planned.variants) - made - len(failed)
     kept = f", {there:,} were there" if there else ""
     missing = f", {len(failed):,} could not be made" if failed else ""
-    click.echo(f"{planned.making.folder}: {made:,} variants made{kept}{missing}", err=True)
+    click.echo(f"{planned.making.folder}: {counted(made, 'variant')} made{kept}{missing}", err=True)
     if wishes.into_library:
         _save(planned, wishes, report, {outcome.task.number for outcome in failed})
     if wishes.sheet:

@@ -19,6 +19,11 @@ def complain(words: str) -> None:
         click.echo(f"batik-vector: error: {line}", err=True)
 
 
+def counted(count: int, what: str) -> str:
+    """Return a count with the word for what was counted: 1 pattern, 2 patterns."""
+    return f"{count:,} {what}{'s' * (count != 1)}"
+
+
 @contextmanager
 def stages(quiet: bool) -> Iterator[Callable[[str], None]]:
     """Show the stage of work that takes long."""

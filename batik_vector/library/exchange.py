@@ -23,6 +23,7 @@ from batik_vector import (
     BatikError,
     Fault,
     LibraryError,
+    MachineProfileError,
     Recipe,
     RecipeError,
     compile_cloth,
@@ -59,13 +60,17 @@ class Incoming:
 
 @dataclass
 class Arrivals:
-    """What was found in the files that were given, and what is wrong with the others."""
+    """What was found in the files that were given, and what is wrong with the others.
+
+    ``profiles`` are of machines, and lay beside the recipes of a folder or a zip.
+    """
 
     patterns: list[Incoming] = field(default_factory=list)
     faults: list[BatikError] = field(default_factory=list)
+    profiles: list[str] = field(default_factory=list)
 
 
-def arrivals(paths: Sequence[str], name: str = "") -> Arrivals:
+def arrivals(paths: Sequence[str], name: str | None = None) -> Arrivals:
     """Read recipes from files, folders and zips.
 
     Args:
@@ -81,9 +86,13 @@ def arrivals(paths: Sequence[str], name: str = "") -> Arrivals:
             if Path(path).suffix.lower() == ".zip" and not Path(path).is_dir():
                 _from_zip(path, found, stack)
             else:
-                for file in _files(path):
-                    _read(str(file), str(file), found)
-    if name:
+                files = _files(path)
+                for file in files:
+                    _read(str(file), str(file), found, alone=files == [Path(path)])
+    if found.profiles and not found.patterns and not found.faults:
+        words = f"no recipes, only profiles of machines, such as {found.profiles[0]}"
+        raise LibraryError(f'{words}: "machine" in the [[output]] of a recipe names one')
+    if name is not None:
         if len(found.patterns) + len(found.faults) > 1:
             raise LibraryError(f"{len(found.patterns)} recipes, expected one to be called {shown(name)}")
         found.patterns = [
@@ -109,10 +118,13 @@ def _files(path: str) -> list[Path]:
     )
 
 
-def _read(path: str, origin: str, found: Arrivals) -> None:
+def _read(path: str, origin: str, found: Arrivals, *, alone: bool = False) -> None:
     try:
         recipe = load_recipe(path)
     except RecipeError as error:
+        if isinstance(error, MachineProfileError) and not alone:
+            found.profiles.append(origin)
+            return
         # What was unpacked is named as it is in its zip.
         found.faults.append(RecipeError([Fault(f.message, f.key, origin, f.line) for f in error.faults]))
         return

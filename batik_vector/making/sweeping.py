@@ -10,37 +10,30 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import tomllib
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any, BinaryIO
+from typing import Any
 
 from batik_vector._version import __version__
 from batik_vector.artwork import Artwork, Page
 from batik_vector.compiling.compiler import compile_recipe
-from batik_vector.errors import BatikError, ExportError, RecipeError
-from batik_vector.export.files import write_all_whole, write_whole
+from batik_vector.errors import BatikError, Fault, RecipeError, shortened
+from batik_vector.export.files import write_all_whole
 from batik_vector.making.jobs import Job, check_folder, make_folder, planned, run
+from batik_vector.making.manifest import Made, Manifest, digest_of, picture_in
 from batik_vector.making.pages import drawings_of
 from batik_vector.making.pool import Outcome, outcomes
 from batik_vector.making.thumbnails import Thumbnail, thumbnail
 from batik_vector.making.variants import Variant, parse_axis, variants
 from batik_vector.recipe.loading import read_recipe
 from batik_vector.recipe.model import Recipe
+from batik_vector.recipe.reading.overrides import meant_by, parse_override
 from batik_vector.recipe.reading.sources import read_text, stem_of
 from batik_vector.values import frozen
-
-
-@frozen
-class Made:
-    """A variant that is made: its files with the digests of their bytes, a report, and its picture."""
-
-    variant: Variant
-    files: tuple[tuple[str, str], ...]
-    report: dict[str, Any]
-    picture: Thumbnail | None = None
-    fresh: bool = True
 
 
 @frozen
@@ -70,15 +63,16 @@ class Making:
         Raises:
             BatikError: where the variant is none that can be made.
         """
-        job = self._job(variant)
         pictures: list[Thumbnail] = []
 
         def look(page: Page) -> None:
             if self.pictures and not pictures:
                 pictures.append(thumbnail(page))
 
-        report = run(job, lambda stage: None, look)
-        files = tuple((path.name, _digest(path)) for path, _ in job.files)
+        with _varied(variant.changes):
+            job = self._job(variant)
+            report = run(job, lambda stage: None, look)
+        files = tuple((path.name, digest_of(path)) for path, _ in job.files)
         return Made(variant, files, report, pictures[0] if pictures else None)
 
     def base(self) -> Recipe:
@@ -95,7 +89,9 @@ class Making:
         Raises:
             RecipeError: where it is wrong.
         """
-        return read_recipe(self.text, self.source, (*self.overrides, *variant.changes), self.recipe_folder)
+        with _varied(variant.changes):
+            changes = (*self.overrides, *variant.changes)
+            return read_recipe(self.text, self.source, changes, self.recipe_folder)
 
     def _job(self, variant: Variant) -> Job:
         changes = (*self.overrides, *variant.changes)
@@ -110,8 +106,19 @@ class Making:
         return hashlib.sha256(told.encode()).hexdigest()[:32]
 
 
-def _digest(path: Path) -> str:
-    return hashlib.sha256(path.read_bytes()).hexdigest()
+ASKED = "--vary"
+
+
+@contextmanager
+def _varied(changes: Sequence[str]) -> Iterator[None]:
+    """Say of faults in what is varied that it was varied, and not set in all variants."""
+    try:
+        yield
+    except RecipeError as error:
+        set_by = {parse_override(each).source: f"{ASKED} {shortened(each)}" for each in changes}
+        raise RecipeError(
+            [replace(each, source=set_by.get(each.source, each.source)) for each in error.faults]
+        ) from error
 
 
 @frozen
@@ -139,111 +146,6 @@ def _written(making: Making, sent: Sent) -> Made:
     """Write the files of a variant that came back, all of them or none."""
     write_all_whole([(Path(making.folder) / name, data) for name, data in sent.files])
     return sent.made
-
-
-class Manifest:
-    """The file that says what a sweep has made: a line of JSON for each variant, found again by its key.
-
-    The lines stay on the disk, for pictures are large and variants many.
-    """
-
-    def __init__(self, path: Path) -> None:
-        self.path = path
-        self._places: dict[str, tuple[int, int]] = {}
-        self._end = 0
-        if path.is_file():
-            with path.open("rb") as file:
-                for text in file:
-                    if (key := _key_of(text)) is not None:
-                        self._places[key] = self._end, len(text)
-                    self._end += len(text)
-
-    def line(self, key: str) -> dict[str, Any] | None:
-        """Return the line with a key."""
-        if key not in self._places:
-            return None
-        found: dict[str, Any] = json.loads(self._text(key))
-        return found
-
-    def _text(self, key: str) -> bytes:
-        start, length = self._places[key]
-        with self.path.open("rb") as file:
-            file.seek(start)
-            return file.read(length)
-
-    def made(self, variant: Variant, key: str, pictures: bool) -> Made | None:
-        """Return a variant that has been made, if its files are still what they were."""
-        line = self.line(key)
-        if line is None or (pictures and "picture" not in line):
-            return None
-        files = tuple((str(name), str(digest)) for name, digest in line["files"])
-        for name, digest in files:
-            place = self.path.parent / name
-            if not place.is_file() or _digest(place) != digest:
-                return None
-        return Made(variant, files, line["report"], picture_in(line), fresh=False)
-
-    def add(self, made: Made, key: str) -> None:
-        """Note a variant as it is done.
-
-        Raises:
-            ExportError: where that cannot be written.
-        """
-        text = (json.dumps(_line(made, key)) + "\n").encode()
-        try:
-            with self.path.open("ab") as file:
-                # What a kill cut short is ended, and passed over.
-                if self._end and self._last() != b"\n":
-                    self._end += file.write(b"\n")
-                self._places[key] = self._end, len(text)
-                self._end += file.write(text)
-        except OSError as error:
-            raise ExportError(f"{self.path} could not be written: {error.strerror or error}") from error
-
-    def _last(self) -> bytes:
-        with self.path.open("rb") as file:
-            file.seek(self._end - 1)
-            return file.read()
-
-    def settle(self, keys: Sequence[str]) -> None:
-        """Write the lines of a whole sweep in the order of its variants: the same bytes however it went."""
-
-        def write(sink: BinaryIO) -> None:
-            for key in keys:
-                if key in self._places:
-                    sink.write(self._text(key))
-
-        if any(key in self._places for key in keys):
-            write_whole(self.path, write)
-
-
-def _key_of(text: bytes) -> str | None:
-    """Return the key of a line that is whole."""
-    try:
-        line = json.loads(text)
-    except ValueError:
-        return None
-    whole = isinstance(line, dict) and {"key", "files", "report"} <= line.keys()
-    return str(line["key"]) if whole else None
-
-
-def picture_in(line: Mapping[str, Any]) -> Thumbnail | None:
-    """Return the picture that a line of a manifest holds."""
-    return Thumbnail(**line["picture"]) if "picture" in line else None
-
-
-def _line(made: Made, key: str) -> dict[str, Any]:
-    variant, picture = made.variant, made.picture
-    line: dict[str, Any] = {
-        "key": key,
-        "name": variant.name,
-        "changes": list(variant.changes),
-        "files": [list(each) for each in made.files],
-        "report": {name: made.report[name] for name in ("cell_mm", "vertices") if name in made.report},
-    }
-    if picture is not None:
-        line["picture"] = {name: getattr(picture, name) for name in ("width", "height", "cloth", "marks")}
-    return line
 
 
 @frozen
@@ -323,12 +225,37 @@ def planned_sweep(making: Making, variants: Sequence[Variant]) -> Sweep:
     """
     check_folder(Path(making.folder))
     recipe = making.base()
+    _refuse_twice(making, variants[0])
     ends = dict.fromkeys((variants[0], variants[-1]))
     faults = [fault for variant in ends for fault in _faults(making, variant)]
     if faults:
-        raise RecipeError(list(dict.fromkeys(faults)))
+        raise RecipeError(_told_once(faults))
     drawings = json.dumps([(name, each.text) for name, each in drawings_of(recipe)])
     return Sweep(making, tuple(variants), recipe.title, hashlib.sha256(drawings.encode()).hexdigest())
+
+
+def _refuse_twice(making: Making, variant: Variant) -> None:
+    """Raise where two keys that are varied are one, spelt in two ways, or lead nowhere."""
+    text = making.base().source
+    keys = list(dict.fromkeys(change.partition("=")[0].strip() for change in variant.changes))
+    first: dict[tuple[Any, ...], str] = {}
+    for key, paths in zip(keys, meant_by(tomllib.loads(text), keys, ASKED), strict=True):
+        for path in paths:
+            if path in first:
+                words = f"is varied twice, as {first[path]} too"
+                raise RecipeError([Fault(words, source=f"{ASKED} {shortened(key)}")])
+            first[path] = key
+
+
+def _told_once(faults: Sequence[Fault]) -> list[Fault]:
+    """Return faults without repeats; what is wrong with a key, whatever its value, is told of the key."""
+    found: dict[tuple[str, str], Fault] = {}
+    for each in faults:
+        what = each.key, each.message
+        if what in found and found[what] != each and each.source.startswith(ASKED):
+            each = replace(each, source=each.source.partition("=")[0])
+        found[what] = each
+    return list(found.values())
 
 
 def _faults(making: Making, variant: Variant) -> Sequence[Any]:

@@ -28,6 +28,8 @@ DIGITS = 6
 """Significant digits of values in a range."""
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 _RANGE = re.compile(rf"({_NUMBER})\s*([a-z]*):({_NUMBER})\s*([a-z]*)(?::(\d+)(:log)?)?")
+_LIKE_RANGE = re.compile(rf"(?:{_NUMBER}|[+-]?(?:inf|nan)\b)\s*[a-z]*\s*:")
+"""What begins as a range does, and is no time of day or other text of a recipe."""
 _FORBIDDEN = re.compile(r"[^\w.+-]+")
 
 
@@ -84,7 +86,11 @@ def parse_axis(text: str) -> Axis:
             raise ValueError("expected KEY=VALUES, such as petal.count=4,8,16 or layout.dist=0.4:4:10")
         if found := _RANGE.fullmatch(values):
             return _ranged(key, *found.groups())
-        return Axis(key, tuple(dict.fromkeys(_parts(values))))
+        if _LIKE_RANGE.match(values):
+            raise ValueError("expected START:STOP:COUNT, numbers and a whole COUNT, with or without :log")
+        if not (parts := tuple(dict.fromkeys(_parts(values)))):
+            raise ValueError("expected values between the commas")
+        return Axis(key, parts)
     except ValueError as error:
         raise RecipeError([Fault(str(error), source=f"--vary {text[:80]}")]) from None
 

@@ -9,9 +9,9 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from batik_vector.errors import RecipeError
+from batik_vector.errors import Fault, MachineProfileError, RecipeError
 from batik_vector.fields import given
 from batik_vector.recipe.drawing import Svg
 from batik_vector.recipe.model import Recipe
@@ -74,8 +74,7 @@ def read_recipe(
     if overrides:
         from batik_vector.recipe.reading.overrides import overridden, parse_override
 
-        changes = [parse_override(each) for each in overrides]
-        text, data = overridden(text, data, changes)
+        text, data, changes = overridden(text, data, [parse_override(each) for each in overrides])
     if carried and isinstance(data.setdefault("drawing", {}), dict):
         data["drawing"] = carried | data["drawing"]
         text = with_carried(text, carried)
@@ -86,9 +85,19 @@ def read_recipe(
 
         found_recipe, found = validated(data, Recipe)
         if found_recipe is None:
+            _refuse_profile(data, source)
             raise RecipeError(placed(found, source, written, changes)) from None
         recipe = replace(found_recipe, source=text)
     return _drawn(recipe, folder, source, written, overrides)
+
+
+def _refuse_profile(data: Mapping[str, Any], source: str) -> None:
+    """Say so where tables are a machine's profile: of its keys a recipe knows none."""
+    from batik_vector.recipe.reading.machines import is_profile
+
+    if is_profile(data):
+        words = 'is the profile of a machine, expected a recipe: "machine" in its [[output]] names a profile'
+        raise MachineProfileError([Fault(words, source=source)])
 
 
 def _drawn(

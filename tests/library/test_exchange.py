@@ -75,6 +75,21 @@ def test_a_compiled_file_carries_its_recipe_back(library: Library, tmp_path: Pat
     assert library.add("dots", found.recipe, measured=NOTHING).fresh is False
 
 
+def test_profiles_of_machines_beside_recipes_are_left_out(tmp_path: Path) -> None:
+    (tmp_path / "dots.toml").write_text(text(1))
+    (tmp_path / "mine.toml").write_text('base = "pen-plotter"\n[tool]\nwidth = "0.3 mm"\n')
+    files = {"a.toml": text(1), "b.toml": 'says = "Another"\n'}
+    for where, profile in ((tmp_path, tmp_path / "mine.toml"), (packed(tmp_path / "all.zip", files), "")):
+        found = arrivals([str(where)])
+        assert [len(found.patterns), len(found.faults)] == [1, 0]
+        assert found.profiles == [str(profile) if profile else f"{where}:b.toml"]
+    (fault,) = arrivals([str(tmp_path / "mine.toml")]).faults
+    assert str(fault).startswith(f"{tmp_path / 'mine.toml'}: is the profile of a machine, expected a recipe")
+    (tmp_path / "dots.toml").unlink()
+    with pytest.raises(LibraryError, match="no recipes, only profiles of machines, such as "):
+        arrivals([str(tmp_path)])
+
+
 def test_a_toml_compiles_from_itself_alone(library: Library, tmp_path: Path) -> None:
     library.add("bird", load_recipe(ROOT / "samples" / "lasem-bird.toml"), measured=NOTHING)
     path = tmp_path / "bird.toml"

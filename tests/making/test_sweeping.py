@@ -94,7 +94,7 @@ def test_what_cannot_be_made_is_told_at_the_end_and_keeps_back_nothing(desk: Pat
     asked = ("--vary", "elements.count=3,0,4")
     missing = called(*asked)
     assert missing.exit_code == 2
-    assert "dots_count-0: dots.toml:6: motif.dot.elements[0].count" in missing.stderr
+    assert "dots_count-0: --vary elements.count=0: motif.dot.elements[0].count: 0, expected" in missing.stderr
     assert "2 variants made, 1 could not be made" in missing.stderr
     assert Path("dots-sweep/dots_count-4.svg").exists()
     report = json.loads(called(*asked, "--json").stdout)
@@ -105,7 +105,24 @@ def test_what_cannot_be_made_is_told_at_the_end_and_keeps_back_nothing(desk: Pat
 @pytest.mark.parametrize(
     ("words", "told"),
     [
-        (("--vary", "elements.cuont=3,4"), "count"),
+        (
+            ("--vary", "motif.dot.elements[0].cuont=3,4"),
+            '--vary motif.dot.elements[0].cuont: motif.dot.elements[0]: unknown key "cuont": did you mean',
+        ),
+        (("--vary", "tilt.size=3,4"), '--vary tilt.size: unknown key "tilt": did you mean "tile"?'),
+        (
+            ("--vary", "kind=3,4"),
+            "--vary kind: may be any of motif.dot.kind, motif.dot.elements[0].curve.kind",
+        ),
+        (("--vary", "place[9].turn=1,2"), "--vary place[9].turn: place[9]: no such place in the list"),
+        (("--vary", "elements.count=3:8:-2"), "--vary elements.count=3:8:-2: expected START:STOP:COUNT"),
+        (("--vary", "elements.radius=1:inf:3"), "--vary elements.radius=1:inf:3: expected START:STOP:COUNT"),
+        (("--vary", "elements.radius=1:2:3:lg"), "expected START:STOP:COUNT, numbers and a whole COUNT"),
+        (("--vary", "elements.count=,"), "--vary elements.count=,: expected values between the commas"),
+        (
+            ("--vary", "elements.count=3,4", "--vary", "dot.elements.count=5,6"),
+            "--vary dot.elements.count: is varied twice, as elements.count too",
+        ),
         (("--vary", "elements.count=-3,-2"), "expected 1 to 1000"),
         (("--vary", "elements.count=1:2000:2000"), "expected 1 to 1000"),
         (("--vary", "seed=0:1:100000", "--vary", "elements.count=1:1000:1000"), "100,000,000 variants"),
@@ -122,7 +139,20 @@ def test_wrong_calls_are_told_and_write_nothing(desk: Path, words: tuple[str, ..
     result = called(*words)
     assert result.exit_code == 2, result.stderr
     assert told in result.stderr
+    if "--set" not in words:
+        assert "--set" not in result.stderr
     assert sorted(os.listdir()) == ["dots.toml"]
+
+
+@pytest.mark.parametrize("key", ["elements.cuont", "elements.count"])
+def test_what_is_wrong_with_a_key_is_told_once(desk: Path, key: str) -> None:
+    result = called("--vary", f"{key}=-7,-7.5,-7")
+    assert result.stderr.count("\n") == (1 if key == "elements.cuont" else 2)
+    assert (
+        runner()
+        .invoke(cli, ["compile", "dots.toml", "--set", f"{key}=-7"])
+        .stderr.startswith(f"batik-vector: error: --set {key}=-7: ")
+    )
 
 
 def test_a_dry_run_writes_nothing(desk: Path) -> None:

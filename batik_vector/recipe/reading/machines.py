@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import json
 import os
+from collections.abc import Mapping
 from dataclasses import fields, replace
 from typing import Any
 
@@ -68,6 +69,12 @@ def read_machine(name: str) -> Machine:
         RecipeError: where there is none such, or it is wrong.
     """
     return _machine(os.path.basename(name) if _is_file(name) else name, os.path.dirname(name) or ".", None)[1]
+
+
+def is_profile(data: Mapping[str, Any]) -> bool:
+    """Return whether tables are of a machine's profile, and not of a recipe."""
+    known = {BASE, *(each.name for each in fields(Machine))}
+    return bool(data.keys() & known) and not data.keys() & {each.name for each in fields(Recipe)}
 
 
 def _is_file(name: str) -> bool:

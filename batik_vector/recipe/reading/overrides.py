@@ -75,8 +75,10 @@ def parsed_value(value: str) -> Any:
     return table["v"] if len(table) == 1 else value
 
 
-def overridden(text: str, data: dict[str, Any], overrides: Sequence[Override]) -> tuple[str, dict[str, Any]]:
-    """Return a recipe's text and tables with values set.
+def overridden(
+    text: str, data: dict[str, Any], overrides: Sequence[Override]
+) -> tuple[str, dict[str, Any], list[Override]]:
+    """Return a recipe's text and tables with values set, and what was set with its keys in full.
 
     Raises:
         RecipeError: for each path that leads nowhere.
@@ -93,7 +95,32 @@ def overridden(text: str, data: dict[str, Any], overrides: Sequence[Override]) -
             faults.append(Fault(astray.words, dotted(astray.path), override.source))
     if faults:
         raise RecipeError(faults)
-    return _rewritten(text, changed, meant), changed
+    return _rewritten(text, changed, meant), changed, meant
+
+
+def meant_by(data: dict[str, Any], keys: Sequence[str], asked: str) -> list[list[Path]]:
+    """Return the paths that each of some keys stands for, as :func:`full_paths` does.
+
+    Args:
+        data: the recipe's tables.
+        keys: as they were typed.
+        asked: the option that gave them, for faults.
+
+    Raises:
+        RecipeError: for each key that leads nowhere.
+    """
+    found: list[list[Path]] = []
+    faults = []
+    for key in keys:
+        try:
+            found.append(full_paths(data, parse_path(key)))
+        except (ValueError, _Astray) as error:
+            place = dotted(error.path) if isinstance(error, _Astray) else ""
+            words = error.words if isinstance(error, _Astray) else str(error)
+            faults.append(Fault(words, "" if place == key else place, f"{asked} {_short(key)}"))
+    if faults:
+        raise RecipeError(faults)
+    return found
 
 
 def full_paths(tables: dict[str, Any], path: Path) -> list[Path]:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import functools
 import json
 import re
+import tomllib
 from collections.abc import Hashable, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, TypeVar, cast
@@ -17,7 +18,7 @@ from batik_vector.recipe.model import Recipe
 from batik_vector.recipe.reading.faults import Found, field_first, found_in, keyed, odd_number, unknown_keys
 from batik_vector.recipe.reading.field_types import Hint
 from batik_vector.recipe.reading.lines import Lines
-from batik_vector.recipe.reading.overrides import Override, parse_override
+from batik_vector.recipe.reading.overrides import Override, overridden, parse_override
 from batik_vector.recipe.references import Path, dotted, unknown_references
 
 if TYPE_CHECKING:
@@ -64,7 +65,13 @@ def relocated(error: RecipeError, source: str, text: str, overrides: Sequence[st
             path = (*path, *name.split("."))
             fault = Fault(rest, dotted(path))
         found.append(Found(path, fault))
-    return RecipeError(placed(found, source, text, [parse_override(each) for each in overrides]))
+    return RecipeError(placed(found, source, text, _in_full(text, overrides)))
+
+
+def _in_full(text: str, overrides: Sequence[str]) -> list[Override]:
+    """Return what was set in a recipe, its keys in full."""
+    changes = [parse_override(each) for each in overrides]
+    return overridden(text, tomllib.loads(text), changes)[2] if changes else []
 
 
 def odd_found(numbers: Sequence[tuple[Path, int]]) -> list[Found]:

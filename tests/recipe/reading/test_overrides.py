@@ -37,7 +37,7 @@ layout = { kind = "single" }
 
 
 def changed(*texts: str) -> dict[str, Any]:
-    text, tables = overridden(TEXT, tomllib.loads(TEXT), [parse_override(each) for each in texts])
+    text, tables, _ = overridden(TEXT, tomllib.loads(TEXT), [parse_override(each) for each in texts])
     assert tomllib.loads(text) == tables
     return tables
 
@@ -55,7 +55,7 @@ def test_what_begins_at_the_root_is_never_looked_for_elsewhere() -> None:
 
 def test_the_index_of_a_lone_member_may_be_left_out() -> None:
     text = TEXT.partition('[[place]]\nmotif = "small"')[0]
-    _, tables = overridden(text, tomllib.loads(text), [parse_override("place.width=3")])
+    _, tables, _ = overridden(text, tomllib.loads(text), [parse_override("place.width=3")])
     assert tables["place"] == [{"motif": "big", "layout": {"kind": "julian", "dist": 4}, "width": 3}]
     with pytest.raises(
         RecipeError, match=r"may be any of place\[0\]\.width.*all of them as place\[\*\]\.width"
@@ -99,7 +99,7 @@ def test_a_text_changed_in_place_is_the_text_that_its_document_would_be(data: st
     change = [Override(path, new, f"{dotted(path)}={new}")]
     written = overrides._in_place(text, change)
     assert written is not None
-    asked, tables = overridden(text, tomllib.loads(text), change)
+    asked, tables, _ = overridden(text, tomllib.loads(text), change)
     assert tomllib.loads(written) == tables
     assert asked == written
     # All but the value is as it was.
