@@ -37,15 +37,23 @@ def centre_lines(areas: Geometries, width: float) -> tuple[Outlines, Index]:
     if not len(piece):
         return nothing(), np.empty(0, np.intp)
     segments = np.asarray(shapely.linestrings(ends), dtype=object)
-    while True:
+    done, whose = [], []
+    while len(segments):
         # What was a fork may be none without its short branches.
-        drawn, number = np.unique(piece, return_inverse=True)
+        first = np.flatnonzero(np.diff(piece, prepend=-1))
+        number = np.repeat(np.arange(len(first)), np.diff(np.append(first, len(piece))))
         merged = shapely.line_merge(shapely.multilinestrings(segments, indices=number))
         lines, which = shapely.get_parts(merged, return_index=True)
-        kept = _worth_it(lines, which, width * BRANCH)
-        segments, piece = lines[kept], drawn[which[kept]]
-        if len(kept) == len(lines):
-            return of_polylines(shapely.simplify(segments, width / SMOOTH)), piece
+        worth = _worth_it(lines, which, width * BRANCH)
+        again = np.zeros(len(first), bool)
+        again[which[~worth]] = True
+        settled, drawn = ~again[which], piece[first][which]
+        done.append(lines[settled])
+        whose.append(drawn[settled])
+        segments, piece = lines[worth & ~settled], drawn[worth & ~settled]
+    found, owner = np.concatenate(done), np.concatenate(whose)
+    order = np.argsort(owner, kind="stable")
+    return of_polylines(shapely.simplify(found[order], width / SMOOTH)), owner[order]
 
 
 def _through(corners: NDArray[np.float64], of: Index) -> tuple[NDArray[np.float64], Index]:
@@ -75,8 +83,8 @@ def _through(corners: NDArray[np.float64], of: Index) -> tuple[NDArray[np.float6
     return segments[some][order], piece[some][order]
 
 
-def _worth_it(lines: Geometries, which: Index, least: float) -> Index:
-    """Return the lines without short branches; of each area the longest at any rate."""
+def _worth_it(lines: Geometries, which: Index, least: float) -> NDArray[np.bool_]:
+    """Return which lines are no short branches; of each area the longest at any rate."""
     length = np.rint(shapely.length(lines))
     longest = np.lexsort((-length, which))
     longest = longest[np.diff(which[longest], prepend=-1) > 0]
@@ -90,4 +98,4 @@ def _worth_it(lines: Geometries, which: Index, least: float) -> Index:
     branch = (met.min(axis=0) == 1) & (met.max(axis=0) > 2)
     kept = ~branch | (length >= least)
     kept[longest] = True
-    return np.flatnonzero(kept)
+    return np.asarray(kept)

@@ -64,7 +64,7 @@ def hatched(areas: Outlines, spec: Hatch, pen: float) -> Outlines:
 def _strokes(areas: Outlines, spec: Hatch, inset: float, spacing: float, width: float) -> Strokes:
     """Return the strokes that fill areas, mark by mark; lengths are in steps."""
     whole = Regions.of(areas)
-    inner, _ = whole.drawn_in(inset)
+    inner = whole.drawn_in(inset).regions
     drawn = _filled(inner, spec, spacing, width)
     if spec.thin:
         drawn.append(_thin(whole, inner, inset))
@@ -89,10 +89,12 @@ def unreached(areas: Outlines, spec: Hatch, pen: float) -> float:
     heads, number, corner = different(areas)
     whole = Regions.of(areas.taken(heads, -corner[heads]))
     times = np.bincount(number, minlength=len(heads))
-    inner, _ = whole.drawn_in(inset)
+    inner = whole.drawn_in(inset).regions
     asked = whole.taken(np.unique(inner.marks)) if spec.thin else whole
-    reached = shapely.area(shapely.buffer(inner.polygons, inset)) * times[inner.marks]
-    return max(float((shapely.area(asked.polygons) * times[asked.marks]).sum() - reached.sum()), 0.0) / MM**2
+    reached = shapely.area(shapely.buffer(inner.polygons(), inset)) * times[inner.marks]
+    return (
+        max(float((shapely.area(asked.polygons()) * times[asked.marks]).sum() - reached.sum()), 0.0) / MM**2
+    )
 
 
 def _sound(areas: Outlines) -> Outlines:
@@ -122,7 +124,7 @@ def _filled(inner: Regions, spec: Hatch, spacing: float, width: float) -> list[S
     assert isinstance(spec, ParallelHatch)
     drawn = list[Strokes]()
     for number, direction in enumerate(directions(spec), start=int(spec.edge)):
-        within, _ = inner.drawn_in(width / APART * number)
+        within = inner.drawn_in(width / APART * number).regions
         strokes, of = serpentines(within.outlines(), Lines(direction, spacing), join=spec.join)
         drawn.append((strokes, within.marks[of]))
     return [*drawn, as_strokes(inner)] if spec.edge else drawn
@@ -134,7 +136,7 @@ def _thin(whole: Regions, inner: Regions, inset: float) -> Strokes:
     drawn = list[Strokes]()
     for part in THINNER:
         if len(left):
-            found, _ = left.drawn_in(inset / part)
+            found = left.drawn_in(inset / part).regions
             drawn.append(as_strokes(found))
             left = left.taken(np.flatnonzero(~np.isin(left.marks, found.marks)))
     drawn.append(as_strokes(left))

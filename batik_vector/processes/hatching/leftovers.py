@@ -1,8 +1,7 @@
 """What rings leave white: corners that are sharper than the pen, and necks where no ring has room.
 
-A ring's ink has round corners, so that a little stays white in each corner between it and the ring around it.
-The ring reaches out for that by a spike, without the pen being lifted. Whatever else is left is as narrow as
-the pen, and gets its centre line.
+Rings reach out into corners by spikes. Whatever else is left is as narrow as the pen, and gets its centre
+line.
 """
 
 from __future__ import annotations
@@ -14,117 +13,127 @@ from numpy.typing import NDArray
 from batik_vector.geometry.outlines import Index, Outlines
 from batik_vector.geometry.sampling import Geometries
 from batik_vector.processes.hatching.centre_lines import centre_lines
-from batik_vector.processes.hatching.regions import Regions
+from batik_vector.processes.hatching.corners import (
+    FARTHEST,
+    SHORT,
+    SLACK,
+    Spikes,
+    in_corners,
+    no_spikes,
+    sharp,
+)
+from batik_vector.processes.hatching.regions import Drawn, Regions
 from batik_vector.values import frozen
 
-BLUNT = 0.7
-"""The cosine of 45°: where rings turn by less, nearly nothing is left white."""
-SLACK = 1 / 64
-"""A part of the pen's width that is not seen."""
 LEAST = 1 / 32
 """A part of the square of the pen's width: smaller places stay white."""
-SHORT = 1 / 6
-"""A part of the pen's width by which a spike's ink ends before the corner: hardly anything is left there."""
-FARTHEST = 2.0
-"""How many widths a spike may be long; from there on lifting the pen takes less time."""
-
-
-@frozen(eq=False)
-class Spikes:
-    """Where rings reach out: from ``corner`` to ``tip``, places in steps, shape (n, 2), in which region."""
-
-    corner: NDArray[np.float64]
-    tip: NDArray[np.float64]
-    region: Index
 
 
 @frozen(eq=False)
 class Leftovers:
-    """What fills the places that rings leave white: spikes of the rings within, and lines of their own."""
+    """What fills the places that rings leave white: spikes of the rings within, and lines of their own, each
+    in one of the regions around.
+    """
 
     spikes: Spikes
     lines: Outlines
     regions: Index
 
 
-def leftovers(regions: Regions, within: Geometries, spacing: float, width: float) -> Leftovers:
+def part_passed(spacing: float, width: float) -> float:
+    """Return after what part of a spacing corners are where the ink of the ring around ends."""
+    return max(spacing, width) * (0.5 + SLACK) / spacing
+
+
+def leftovers(around: Regions, drawn: Drawn, spacing: float, width: float) -> Leftovers:
     """Return what fills the places between rings and those within them.
 
     Args:
-        regions: bounded by the rings.
-        within: what lies a spacing within each.
+        around: bounded by the rings.
+        drawn: what lies a spacing within each.
         spacing: from ring to ring, in steps. Where it is greater than the width, corners stay as they are.
         width: of the pen, in steps.
     """
     broad = max(spacing, width)
-    pieces, of = _white(regions, within, broad)
-    spikes, kept = _spikes(regions, within, pieces, of, broad)
-    lines, piece = centre_lines(pieces[~kept], broad)
+    corners, more = in_corners(drawn, broad)
+    asked = np.ones(len(around), bool)
+    asked[drawn.parents[drawn.own()]] = False
+    asked[more] = True
+    found = _others(around, drawn, np.flatnonzero(asked), broad)
     if spacing > width * (1 + 1e-9):
-        none = np.empty(0, np.intp)
-        spikes = Spikes(spikes.corner[none], spikes.tip[none], none)
-    return Leftovers(spikes, lines, of[~kept][piece])
+        return Leftovers(no_spikes(), found.lines, found.regions)
+    spikes = Spikes(
+        np.concatenate([corners.point, found.spikes.point]), np.concatenate([corners.tip, found.spikes.tip])
+    )
+    return Leftovers(spikes, found.lines, found.regions)
+
+
+def _others(around: Regions, drawn: Drawn, asked: Index, broad: float) -> Leftovers:
+    """Return what fills places of all shapes in some of the regions."""
+    inner = np.flatnonzero(np.isin(drawn.parents, asked))
+    parts = drawn.regions.taken(inner)
+    parent = np.searchsorted(asked, drawn.parents[inner])
+    within = np.full(len(asked), shapely.Polygon(), dtype=object)
+    if len(parts):
+        filled = np.unique(parent)
+        within[filled] = shapely.multipolygons(parts.polygons(), indices=np.searchsorted(filled, parent))
+    pointed = np.asarray(shapely.is_empty(within))
+    pointed[parent[np.logical_or.reduceat(sharp(parts), parts.rings[parts.parts[:-1]])]] = True
+    kept = np.flatnonzero(pointed)
+    pieces, of = _white(around.taken(asked[kept]), within[kept], broad)
+    of = kept[of]
+    corner, tip, region, painted = _spikes(around, asked, within, pieces, of, broad)
+    lines, piece = centre_lines(pieces[~painted], broad)
+    # The point of the rings that is the corner.
+    points = drawn.regions.points(inner)
+    owner = np.repeat(parent, np.diff(parts.rings[parts.parts]))
+    rows = np.concatenate([np.column_stack([owner, parts.x, parts.y]), np.column_stack([region, corner])])
+    _, first, number = np.unique(rows, axis=0, return_index=True, return_inverse=True)
+    at = first[number.reshape(-1)[len(owner) :]]
+    there = at < len(owner)
+    return Leftovers(Spikes(points[at[there]], tip[there]), lines, asked[of[~painted][piece]])
 
 
 def _white(regions: Regions, within: Geometries, broad: float) -> tuple[Geometries, Index]:
     """Return places that neither the ring around nor those within paint, and the region of each."""
-    asked = np.flatnonzero(_pointed(within))
     reach = broad * (0.5 + SLACK)
-    free = regions.taken(asked).shrunk(reach)
-    painted = shapely.buffer(within[asked], reach, quad_segs=8)
-    pieces, of = shapely.get_parts(shapely.difference(free, painted), return_index=True)
-    large = np.flatnonzero(shapely.area(pieces) > broad * broad * LEAST)
-    return pieces[large], asked[of[large]]
-
-
-def _pointed(within: Geometries) -> NDArray[np.bool_]:
-    """Return which regions have corners, or are empty."""
-    parts, part = shapely.get_parts(within, return_index=True)
-    rings, of = shapely.get_rings(parts, return_index=True)
-    pointed = np.asarray(shapely.is_empty(within))
-    if not len(rings):
-        return pointed
-    points, ring = shapely.get_coordinates(rings, return_index=True)
-    step = np.diff(points, axis=0)
-    ends = np.flatnonzero(np.diff(ring))
-    first = np.append(0, ends + 1)
-    x, y = step.T
-    # The step after each; that after a ring's last is its first, and what leads to the next ring is none.
-    after = np.arange(1, len(step) + 1)
-    after[np.append(ends, len(step)) - 1] = first
-    dot = x * x[after] + y * y[after]
-    long = np.sqrt((x * x + y * y) * (x[after] ** 2 + y[after] ** 2))
-    sharp = dot < BLUNT * long
-    sharp[ends] = False
-    pointed[part[of[ring[:-1][sharp]]]] = True
-    return pointed
+    free = regions.drawn_in(reach)
+    pieces, of = free.regions.polygons(), free.parents
+    cut = np.flatnonzero(~shapely.is_empty(within[of]))
+    if len(cut):
+        painted = shapely.buffer(within[of[cut]], reach, quad_segs=8)
+        pieces[cut] = shapely.difference(pieces[cut], painted)
+        pieces, number = shapely.get_parts(pieces, return_index=True)
+        of = of[number]
+    large = shapely.area(pieces) > broad * broad * LEAST
+    return pieces[large], of[large]
 
 
 def _spikes(
-    regions: Regions, within: Geometries, pieces: Geometries, of: Index, broad: float
-) -> tuple[Spikes, NDArray[np.bool_]]:
-    """Return the spikes, and which pieces are painted by one or do not need it."""
-    places, piece = shapely.get_coordinates(pieces, return_index=True)
+    around: Regions, asked: Index, within: Geometries, pieces: Geometries, of: Index, broad: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64], Index, NDArray[np.bool_]]:
+    """Return the spikes, from corner to tip, each in which of the asked regions; and which pieces are painted
+    by one or do not need it.
+    """
+    kept = ~shapely.is_empty(within[of])
+    some = np.flatnonzero(kept)
+    places, piece = shapely.get_coordinates(pieces[some], return_index=True)
     points = np.asarray(shapely.points(places), dtype=object)
-    away = np.rint(shapely.distance(points, within[of[piece]]))
-    away[np.isnan(away)] = np.inf
+    away = np.rint(shapely.distance(points, within[of[some[piece]]]))
     farthest = np.lexsort((-away, piece))
     farthest = farthest[np.diff(piece[farthest], prepend=-1) > 0]
-    kept = np.isfinite(away[farthest])
-    some = np.flatnonzero(kept)
-    ways = shapely.get_coordinates(shapely.shortest_line(points[farthest[some]], within[of[some]]))
-    far, corner = ways[::2], ways[1::2]
+    ways = shapely.get_coordinates(shapely.shortest_line(points[farthest], within[of[some]])).reshape(
+        -1, 2, 2
+    )
+    far, corner = ways[:, 0], ways[:, 1]
     length = np.sqrt(((far - corner) ** 2).sum(axis=1))
     share = np.maximum(length - broad * (0.5 + SHORT), 0.0) / np.maximum(length, 1.0)
     tip = corner + (far - corner) * share[:, None]
-    spikes = shapely.linestrings(np.stack([corner, tip], axis=1))
-    line = np.full(len(pieces), None, dtype=object)
-    line[some] = spikes
-    missed = shapely.distance(points, line[piece]) > broad * (0.5 + SHORT + SLACK)
-    kept[np.unique(piece[missed])] = False
-    good = (
-        kept[some] & (length * share <= broad * FARTHEST) & shapely.covers(regions.polygons[of[some]], spikes)
-    )
+    lines = np.asarray(shapely.linestrings(np.stack([corner, tip], axis=1)), dtype=object)
+    good = length * share <= broad * FARTHEST
+    missed = shapely.distance(points, lines[piece]) > broad * (0.5 + SHORT + SLACK)
+    good[piece[missed]] = False
+    good[good] = shapely.covers(around.taken(asked[of[some[good]]]).polygons(), lines[good])
     kept[some] = good
-    drawn = good & (share > 0)
-    return Spikes(corner[drawn], tip[drawn], of[some[drawn]]), kept
+    out = good & (share > 0)
+    return corner[out], tip[out], of[some[out]], kept

@@ -5,15 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-import shapely
 
-from batik_vector.geometry.outlines import Index, Outlines, Steps, together
-from batik_vector.processes.hatching.leftovers import Spikes, leftovers
+from batik_vector.geometry.outlines import Index, Outlines, together
+from batik_vector.processes.hatching.corners import Spikes, spiked
+from batik_vector.processes.hatching.leftovers import leftovers, part_passed
 from batik_vector.processes.hatching.regions import Regions
 from batik_vector.values import frozen
-
-FOOT = 8
-"""The foot of a spike is an eighth of the pen's width on either side of the corner."""
 
 
 @frozen(eq=False)
@@ -45,11 +42,10 @@ def levels(regions: Regions, spacing: float, width: float) -> Iterator[Level]:
 
 
 def _next(around: Regions, spacing: float, width: float) -> Level:
-    left = around.shrunk(spacing)
-    regions, parents = around.parts(left)
-    white = leftovers(around, left, spacing, width)
-    rings, bounds = _rings(regions)
-    rings = _spiked(rings, parents[bounds], white.spikes, width)
+    drawn = around.drawn_in(spacing, part_passed(spacing, width))
+    regions, parents = drawn.regions, drawn.parents
+    white = leftovers(around, drawn, spacing, width)
+    rings, bounds = _rings(regions, white.spikes, width)
     within = np.concatenate([parents[bounds], white.regions])
     beyond = np.full(len(white.lines), len(regions))
     return Level(
@@ -62,60 +58,21 @@ def _next(around: Regions, spacing: float, width: float) -> Level:
     )
 
 
-def _spiked(rings: Outlines, within: Index, spikes: Spikes, width: float) -> Outlines:
-    """Return rings that reach out by spikes: before and after each the corner is left out.
-
-    Args:
-        rings: closed outlines.
-        within: the region around each.
-        spikes: what they reach out for.
-        width: of the pen, in steps: an eighth of it is the foot of a spike, on either side.
-    """
-    ring = np.repeat(np.arange(len(within)), np.diff(rings.rings))
-    corner, tip = (np.rint(each).astype(np.int64) for each in (spikes.corner, spikes.tip))
-    rows = np.concatenate(
-        [np.column_stack([within[ring], rings.points]), np.column_stack([spikes.region, corner])]
-    )
-    _, first, number = np.unique(rows, axis=0, return_index=True, return_inverse=True)
-    at = first[number.reshape(-1)[len(ring) :]]
-    # A corner has one spike, and what was cut off it none.
-    at, which = np.unique(at, return_index=True)
-    found = at < len(ring)
-    at, tip = at[found], tip[which[found]]
-    before, after = at - 1, at + 1
-    starts, stops = rings.rings[ring[at]], rings.rings[ring[at] + 1]
-    before, after = np.where(at == starts, stops - 1, before), np.where(after == stops, starts, after)
-    foot = width / FOOT
-    feet = [_toward(rings.points[at], rings.points[other], foot) for other in (before, after)]
-    points = rings.points.copy()
-    points[at] = feet[0]
-    points = np.insert(points, np.repeat(at + 1, 2), np.stack([tip, feet[1]], axis=1).reshape(-1, 2), axis=0)
-    more = 2 * np.bincount(ring[at], minlength=len(within))
-    return Outlines(points, rings.rings + np.concatenate([[0], np.cumsum(more)]), rings.marks, rings.closed)
-
-
-def _toward(places: Steps, others: Steps, distance: float) -> Steps:
-    """Return places so far on the way to others, by a third of the way at most."""
-    way = others - places
-    length = np.sqrt((way * way).sum(axis=1))
-    share = np.minimum(distance / np.maximum(length, 1.0), 1 / 3)
-    moved: Steps = np.rint(places + way * share[:, None]).astype(np.int64)
-    return moved
-
-
 def as_strokes(regions: Regions) -> tuple[Outlines, Index]:
     """Return the rings of regions as closed strokes, and the mark of each; none that shrank to a line."""
     strokes, of = _rings(regions)
     return strokes, regions.marks[of]
 
 
-def _rings(regions: Regions) -> tuple[Outlines, Index]:
-    """Return the same, and the region of each."""
+def _rings(regions: Regions, spikes: Spikes | None = None, width: float = 0.0) -> tuple[Outlines, Index]:
+    """Return the same, and the region of each; reaching out by spikes."""
     outlines = regions.outlines()
-    rings = shapely.get_num_interior_rings(regions.polygons) + 1
     strokes = Outlines(outlines.points, outlines.rings, np.arange(len(outlines.rings)), outlines.closed)
-    kept = np.flatnonzero(np.diff(outlines.rings) > 2)
-    return strokes.taken(kept), np.repeat(np.arange(len(regions)), rings)[kept]
+    of = np.repeat(np.arange(len(regions)), np.diff(regions.parts))
+    kept = np.diff(strokes.rings) > 2
+    if spikes:
+        strokes = spiked(strokes, spikes, width)
+    return (strokes, of) if kept.all() else (strokes.taken(np.flatnonzero(kept)), of[kept])
 
 
 def concentric(regions: Regions, spacing: float, width: float, *, edge_last: bool) -> tuple[Outlines, Index]:
