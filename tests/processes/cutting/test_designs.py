@@ -16,6 +16,7 @@ from batik_vector.geometry.outlines import Outlines, to_polygons
 from batik_vector.machines import Machine
 from batik_vector.processes.options import CutProcess
 from batik_vector.processes.prepared import Prepared
+from tests.distances import distances
 from tests.thorough import examples, long
 
 from .designs import NESTED, covered, design, nested
@@ -100,14 +101,14 @@ def test_what_a_beam_leaves_is_what_was_drawn(page: Artwork) -> None:
         reached = within_a_beam(drawn, kerf)
         assert kept.area == pytest.approx(reached.area, rel=AREA)
         corners, angles = turns_of(without_hairs(drawn))
-        off = np.asarray(shapely.distance(shapely.boundary(kept), shapely.points(corners)))
+        off = distances(shapely.boundary(kept), corners)
         if page.title == NESTED:
             assert kept.area == pytest.approx(drawn.area, rel=AREA)
             # Into a corner of angle a the middle of a disc of radius r comes as near as r / sin(a / 2).
             beyond = kerf / 2 * (1 / np.cos(np.minimum(angles, 0) / 2) - 1)
             # Whole steps move either side of a corner, and its point by up to two.
             assert off[beyond < CORNER - STEPS].max() <= CORNER
-        assert (off - shapely.distance(shapely.boundary(reached), shapely.points(corners))).max() <= CORNER
+        assert (off - distances(shapely.boundary(reached), corners)).max() <= CORNER
 
 
 def within_a_beam(drawn: shapely.MultiPolygon, kerf: float) -> shapely.Polygon:
@@ -153,8 +154,8 @@ def test_what_a_knife_leaves_is_what_was_drawn(page: Artwork) -> None:
         loops = np.array([shapely.Polygon(track) for track in tracks], dtype=object)
         assert signed_area(rings, loops) == pytest.approx(shapely.area(evenodd(rings)), rel=AREA)
         for ring, track in zip(rings, tracks, strict=True):
-            corners = shapely.points(shapely.get_coordinates(ring))
-            assert shapely.distance(shapely.LineString(track), corners).max() <= CORNER
+            corners = shapely.get_coordinates(ring)
+            assert distances(shapely.LineString(track), corners).max() <= CORNER
 
 
 def tracked(way: Outlines, offset: float) -> list[np.ndarray]:
