@@ -92,19 +92,19 @@ def _placed(data: Tables, kind: str) -> Tables:
     name = next((each for each in names if data["motif"][each]["kind"] == kind), None)
     if name is None:
         ink = {"ink": next(iter(data["ink"]))} if "ink" in data else {}
-        made: Tables = {"kind": "flower", "leaf": dict(ink)}
-        if kind == "lsystem":
-            made = {"kind": kind, "system": "koch-snowflake", **ink}
-        elif kind == "path":
-            made = {"kind": kind, "d": PATH, **ink}
-        elif kind == "rosette":
-            made = {"kind": kind, "elements": [{"curve": {"kind": "circle"}, **ink}]}
-        else:
+        needs: dict[str, Tables] = {
+            "flower": {"leaf": dict(ink)},
+            "lsystem": {"system": "koch-snowflake", **ink},
+            "path": {"d": PATH, **ink},
+            "rosette": {"elements": [{"curve": {"kind": "circle"}, **ink}]},
+        }
+        made: Tables = {"kind": kind, **needs.get(kind, {})}
+        if kind not in ("lsystem", "path", "rosette"):
             # A flower is a unit large, where the motif that it stands for is measured in mm.
             large = _place_of(data, names[0]).get("scale") == "1 mm"
             if large:
                 _place_of(data, names[0])["scale"] = "20 mm"
-            _place_of(data, names[0]).update(ink)
+        _place_of(data, names[0]).update(ink)
         data["motif"][name := names[0]] = made
     table: Tables = data["motif"][name]
     return table
@@ -115,8 +115,31 @@ def _place_of(data: Tables, motif: str) -> Tables:
     return found
 
 
-def _part(name: str) -> Put:
-    return lambda data: _placed(data, "flower").setdefault(name, {})
+def _parts() -> dict[str, Put]:
+    """Return how the parts of motifs are put in: each into the first motif that has it."""
+    found: dict[str, Put] = {}
+    for table, node in schema()["$defs"].items():
+        room, _, kind = table.partition(".")
+        for name, member in node["properties"].items() if room == "motif" else ():
+            options = [member, *member.get("anyOf", ())]
+            for part in (str(each["$ref"]).rpartition("/")[2] for each in options if "$ref" in each):
+                if "." not in part:
+                    found.setdefault(part, _part(kind, name))
+    return found
+
+
+def _part(kind: str, name: str) -> Put:
+    def put(data: Tables) -> Tables:
+        table: Tables = _placed(data, kind).setdefault(name, {})
+        return table
+
+    return put
+
+
+def _growth(data: Tables) -> Tables:
+    mark = {"curve": {"kind": "circle"}, "symbol": "F", "radius": 1.0}
+    table: Tables = _placed(data, "lsystem").setdefault("marks", [mark])[0]
+    return table
 
 
 def _element(data: Tables) -> Tables:
@@ -188,6 +211,22 @@ def _output(form: str) -> Put:
     return put
 
 
+def _process(kind: str) -> Put:
+    def put(data: Tables) -> Tables:
+        found: Tables = _output("svg")(data).setdefault("process", {"kind": kind})
+        return found
+
+    return put
+
+
+def _hatch(kind: str) -> Put:
+    def put(data: Tables) -> Tables:
+        found: Tables = _process("plot")(data).setdefault("hatch", {"kind": kind})
+        return found
+
+    return put
+
+
 def _yardage(data: Tables) -> Tables:
     width, length = (2 * float(str(side).split()[0]) for side in data["tile"]["size"])
     found: Tables = data.setdefault("yardage", {"width": width, "length": length})
@@ -205,17 +244,14 @@ def _border(data: Tables) -> Tables:
 
 
 PUT: dict[str, Put] = {
+    **_parts(),
     "recipe": lambda data: data,
     "TileSpec": lambda data: data["tile"],
     "Fit": lambda data: data["tile"].setdefault("fit", {"width": 1000.0, "limit": 50}),
     "Placement": lambda data: data["place"][0],
     "InkSpec": lambda data: data.setdefault("ink", {"ink": {}})[next(iter(data["ink"]))],
     "Element": _element,
-    "Dress": _part("disc"),
-    "Leaf": _part("leaf"),
-    "Petals": _part("petal"),
-    "Pistil": _part("pistil"),
-    "Core": _part("core"),
+    "Growth": _growth,
     "Spot": lambda data: _layout("free")(data)["spots"][0],
     "Term": lambda data: _layout("ifs")(data)["maps"][0]["terms"][0],
     "YardageSpec": _yardage,
@@ -228,6 +264,8 @@ ROOMS: dict[str, Callable[[str], Put]] = {
     "layout": _layout,
     "variation": _variation,
     "output": _output,
+    "process": _process,
+    "hatch": _hatch,
 }
 
 
@@ -243,10 +281,23 @@ def recipe_with(recipe: str, key: Key, value: float, chance: random.Random) -> s
         table[key.name] = exact
     if key.table == "Placement" and key.name in ("width", "scale"):
         table.pop("scale" if key.name == "width" else "width", None)
-    if key.table == "BorderSpec" and key.name == "radius":
-        table["corner"] = "bend"
+    table.update(BESIDE.get(str(key), {}))
     return tomlkit.dumps(data)
 
+
+ROWS: dict[str, list[list[float]]] = {
+    "arrows": [[1, 1.0, 0.0], [-3, 0.3, 0.0]],
+    "matrix": [[1, 1], [1, 0]],
+    "points": [[0.0, 0.0], [1.0, 0.0], [0.5, 1.0]],
+}
+"""What stands in lists of rows that the sample has not."""
+
+BESIDE: dict[str, Tables] = {
+    "BorderSpec.radius": {"corner": "bend"},
+    "process.plot.margin": {"hidden": "remove"},
+    "process.cut.sheet_number": {"sheet": ["2 m", "2 m"]},
+}
+"""What keys are refused without."""
 
 LENGTHS = {"matrix": 6, "turns": 3, "weights": 1}
 """Items of lists that have no length of their own."""
@@ -255,7 +306,7 @@ LENGTHS = {"matrix": 6, "turns": 3, "weights": 1}
 def _filled(now: Any, key: Key, value: float | int, chance: random.Random) -> list[Any]:
     """Return a list with the value where the key says, and between two numbers in order."""
     if len(key.within) == 2:
-        rows = [list(row) for row in now]
+        rows = [list(row) for row in now or ROWS[key.name]]
         for row in rows:
             row[int(key.within[1] or 0)] = value
         return rows
