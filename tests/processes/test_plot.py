@@ -171,6 +171,8 @@ def test_what_was_plotted_once_is_plotted_again_as_it_is() -> None:
     [
         ("kawung", PlotProcess(once="all", hidden="remove")),  # type: ignore[arg-type]
         ("chrysanthemum-line", PlotProcess()),
+        # Holes of it ran out into needles whose tips lay on the seam.
+        ("five-circle", PlotProcess()),
     ],
 )
 def test_a_plotted_tile_keeps_its_certificate(sample: str, spec: PlotProcess, tmp_path: Path) -> None:

@@ -158,7 +158,7 @@ def _assemble_on(torus: Torus, pile: Pile, left: Cut, inks: Sequence[Ink]) -> tu
     ]
     numbers = {ink.name: number for number, ink in enumerate(inks)}
     ink_of = np.array([-1 if sheet.ink is None else numbers[sheet.ink.name] for sheet in pile.sheets], int)
-    drawn = _merged(torus.stock, drawn, ink_of, inks)
+    drawn = _merged(torus, drawn, ink_of, inks)
     names = [sheet.name for sheet in pile.sheets]
     layers = []
     for number, ink in enumerate(inks):
@@ -269,16 +269,23 @@ def _strokes(torus: Torus, pile: Pile, number: int, lines: Geometries) -> Lines:
     return torus.cut_lines(strokes, torus.stock.geometries(bodies), ink.name, pile.tolerance * STEPS_PER_MM)
 
 
-def _merged(stock: Stock, drawn: Laid, ink_of: Index, inks: Sequence[Ink]) -> Laid:
-    """Weld the marks of an ink where they meet; an overlay keeps them, and drops exact repeats."""
+def _merged(torus: Torus, drawn: Laid, ink_of: Index, inks: Sequence[Ink]) -> Laid:
+    """Weld the marks of an ink where they meet; an overlay keeps them, and drops exact repeats.
+
+    What is thinner than the grid goes: from an overlay first, of which two may repeat one another but for it.
+    """
     over = np.array([ink.overlap == Overlap.OVERLAY for ink in inks], bool)
     ink = ink_of[drawn.sheet]
-    kept = [
-        drawn.taken(_first_drawn(stock, drawn, np.flatnonzero(ink == each))) for each in np.flatnonzero(over)
-    ]
     mine = drawn.taken(~over[ink])
-    copies, first = weld(stock, mine.copies, ink_of[mine.sheet])
-    return joined([Laid(copies, mine.sheet[first]), *kept])
+    copies, first = weld(torus.stock, mine.copies, ink_of[mine.sheet])
+    welded = Laid(torus.without_needles(copies), mine.sheet[first])
+    laid = drawn.taken(over[ink])
+    laid = Laid(torus.without_needles(laid.copies), laid.sheet)
+    kept = [
+        laid.taken(_first_drawn(torus.stock, laid, np.flatnonzero(ink_of[laid.sheet] == each)))
+        for each in np.flatnonzero(over)
+    ]
+    return joined([welded, *kept])
 
 
 def _first_drawn(stock: Stock, drawn: Laid, which: Index) -> Index:

@@ -29,6 +29,7 @@ from batik_vector.tiling.torus.torus import (
 )
 from batik_vector.tiling.welding.congruent import Copies, Stock, together
 from batik_vector.tiling.welding.endings import Places, lone_ends, on_edges, own_ends, tips
+from batik_vector.tiling.welding.needles import needled, without_needles
 from batik_vector.tiling.welding.weld import meeting, overlap
 
 Borders = frozenset[tuple[str, int, int, int]]
@@ -168,6 +169,15 @@ class Torus:
             meant |= {place for place in lone if _lies_in(place, along)}
         self.borders += [(ink, 0, y, y) if x == 0 else (ink, 1, x, x) for x, y in sorted(meant)]
 
+    def without_needles(self, areas: Copies) -> Copies:
+        """Return areas that lie in the cell without what is thinner than the grid."""
+        shapes, row = self.stock.used(areas)
+        at = np.flatnonzero(needled(shapes)[row])
+        if not len(at):
+            return areas
+        blunt = without_needles(self.stock.geometries(areas.taken(at)), self.window)
+        return self._replaced(areas, at, blunt)
+
     def sealed(self, ink: str, areas: Copies, *, apart: bool) -> Copies | None:
         """Return areas whose opposite edges agree, but for borders drawn along the seam on purpose.
 
@@ -187,9 +197,14 @@ class Torus:
             if self._torn(breaks):
                 return None
             self.borders += [(ink, axis, low, high) for axis, low, high in breaks.tolist()]
-            new = self.stock.taken_up(mended)
-            areas = Copies(areas.kind.copy(), areas.shift.copy())
-            areas.kind[at], areas.shift[at] = new.kind, new.shift
+            areas = self._replaced(areas, at, mended)
+        return areas
+
+    def _replaced(self, areas: Copies, at: Index | NDArray[np.bool_], others: Geometries) -> Copies:
+        """Return copies, some of which are other polygons."""
+        new = self.stock.taken_up(others)
+        areas = Copies(areas.kind.copy(), areas.shift.copy())
+        areas.kind[at], areas.shift[at] = new.kind, new.shift
         return areas
 
     def _torn(self, breaks: NDArray[np.int64]) -> list[tuple[int, int, int]]:
