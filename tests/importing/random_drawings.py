@@ -71,7 +71,8 @@ def paints(draw: st.DrawFn, patterned: bool) -> str:
 
 @st.composite
 def clip_paths(draw: st.DrawFn, name: str, inner: str) -> str:
-    boxed = draw(st.integers(0, 4)) == 0
+    # resvg 0.5.0 measures a clip of a clip by the first mark's box alone, so a clip in shares clips marks only.
+    boxed = bool(inner) and draw(st.integers(0, 2)) == 0
     units = ' clipPathUnits="objectBoundingBox"' if boxed else ""
     if boxed:
         shape = draw(st.sampled_from(['<circle cx=".5" cy=".5" r=".4"/>', '<path d="M0 0h.7v.9z"/>']))
