@@ -62,7 +62,7 @@ WINGS: dict[str, Floors] = {
         "regions nesting",
         "lsystems",
         "generators",
-        "ragged curves stretches inside",
+        "ragged curves stretches inside arrangement",
         "bezier continuations maps",
         "coincidence",
         "ifs",

@@ -19,6 +19,7 @@ passes it.
 
 from __future__ import annotations
 
+from batik_vector.artwork.dyeing import Bath, Dyeing, Seen
 from batik_vector.artwork.normal_form import Breach, breaches, violations
 from batik_vector.artwork.page import (
     PIECE,
@@ -34,14 +35,17 @@ from batik_vector.artwork.page import (
     Plate,
     Provenance,
     RawArtwork,
+    dyeing_of,
 )
 
 __all__ = [
     "PIECE",
     "Artwork",
+    "Bath",
     "Breach",
     "Cell",
     "DropAxis",
+    "Dyeing",
     "Geometries",
     "Ink",
     "Layer",
@@ -51,6 +55,8 @@ __all__ = [
     "Plate",
     "Provenance",
     "RawArtwork",
+    "Seen",
     "breaches",
+    "dyeing_of",
     "violations",
 ]

@@ -14,6 +14,7 @@ import shapely
 from numpy.typing import NDArray
 from shapely.geometry.base import BaseGeometry
 
+from batik_vector.artwork.dyeing import Dyeing
 from batik_vector.errors import ExportError, GeometryError
 from batik_vector.fields import Between, Converted, check
 from batik_vector.geometry.outlines import MM, Outlines, of_polygons, of_polylines
@@ -265,6 +266,12 @@ class Page(Protocol):
         """Yield the centre lines of a layer, in pieces."""
 
 
+def dyeing_of(page: Page) -> Dyeing | None:
+    """Return the baths that the cloth of a page goes through; a page need not know of any."""
+    dyeing: Dyeing | None = getattr(page, "dyeing", None)
+    return dyeing
+
+
 @frozen(eq=False)
 class Artwork:
     """A page of ink layers on cloth, in the normal form that :mod:`batik_vector.artwork` states.
@@ -273,7 +280,8 @@ class Artwork:
     far the geometry reaches beyond the cell on every side. ``borders`` are the stretches of the seam along
     which a mark's own border runs, so that it has no twin on the opposite edge: (ink, axis, from, to), the
     last two in grid steps along the left edge (axis 0) or the lower one (axis 1). ``facts`` are plain values
-    on how it was made, for reports: how a toss came out, what a fit stretched.
+    on how it was made, for reports: how a toss came out, what a fit stretched. ``dyeing`` says which baths
+    each ink stands for.
     """
 
     title: str
@@ -285,6 +293,7 @@ class Artwork:
     provenance: Provenance = Provenance()
     borders: Annotated[frozenset[Border], Converted(_borders, "a set of (ink, axis, from, to)")] = frozenset()
     facts: Mapping[str, Any] = field(default_factory=dict)
+    dyeing: Dyeing | None = None
 
     def __post_init__(self) -> None:
         check(self)

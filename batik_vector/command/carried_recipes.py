@@ -13,7 +13,7 @@ import shapely
 from batik_vector.artwork import Artwork, Cell, DropAxis, Geometries, Layer, Margins, Page
 from batik_vector.export.ids import Ids
 from batik_vector.export.palette import xml_label
-from batik_vector.geometry.outlines import to_polylines, together
+from batik_vector.geometry.outlines import to_polygons, to_polylines, together
 from batik_vector.importing.svg import Reading
 from batik_vector.machines import Machine
 from batik_vector.processes.options import ProcessSpec
@@ -101,21 +101,27 @@ def promised_prepared(
         if np.allclose((shown.cell.width, shown.cell.height), reading.page, rtol=0, atol=SIZE_MM):
             kept = page.margins == Margins() and all(each.keeps_tile for each in processes)
             if kept:
-                shown = replace(shown, cell=field.cell, borders=field.borders)
+                shown = replace(shown, cell=page.cell, borders=getattr(page, "borders", field.borders))
             return Promise(recipe, shown, _repeat(shown.cell)), kept
     return _broken(recipe, tile, reading), False
 
 
 def _strokes(page: Page) -> Artwork:
-    """Return what a page draws with its corner at the origin: its strokes, by tools."""
+    """Return what a page draws with its corner at the origin, by tools or plates."""
     margins = page.margins
     columns = margins.left + page.cell.columns + margins.right
     rows = margins.bottom + page.cell.rows + margins.top
     layers = []
     for number, plate in enumerate(page.plates):
-        if plate.lines and not plate.guide:
-            strokes = together([each.moved(margins.left, margins.bottom) for each in page.lines(number)])
-            layers.append(Layer(plate.ink, lines=to_polylines(strokes, STEPS_PER_MM)))
+        if plate.guide or not (plate.areas or plate.lines):
+            continue
+        areas, strokes = (
+            together([each.moved(margins.left, margins.bottom) for each in pieces])
+            for pieces in (page.areas(number), page.lines(number))
+        )
+        layers.append(
+            Layer(plate.ink, to_polygons(areas, STEPS_PER_MM), to_polylines(strokes, STEPS_PER_MM))
+        )
     return Artwork(page.title, Cell(columns, rows), tuple(layers), page.cloth, page.tolerance)
 
 

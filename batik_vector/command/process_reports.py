@@ -1,4 +1,4 @@
-"""Reports of processes in words: what `batik-vector compile` prints for people of strokes, way and time."""
+"""Reports of processes in words: what `batik-vector compile` prints for people of strokes and plates."""
 
 from __future__ import annotations
 
@@ -53,6 +53,13 @@ def _cut(facts: Facts) -> Iterator[str]:
             )
 
 
+def _wax(facts: Facts) -> Iterator[str]:
+    for each in facts["plates"]:
+        pieces = _counted(each["pieces"], "piece", "pieces")
+        area = f"{each['area_mm2'] / 100:,.1f} cm²"
+        yield f"{each['plate']}: {area} in {pieces}, {each['covers']:.1%} of the cloth"
+
+
 def _cuts(facts: Facts) -> str:
     if not facts["contours"]:
         return "nothing is left to cut"
@@ -94,5 +101,5 @@ def duration(seconds: float) -> str:
     return f"{minutes} min {whole % 60} s" if minutes else f"{whole} s"
 
 
-_TOLD: dict[str, Callable[[Facts], Iterator[str]]] = {"plot": _plot, "cut": _cut}
+_TOLD: dict[str, Callable[[Facts], Iterator[str]]] = {"plot": _plot, "cut": _cut, "wax": _wax}
 """What tells of each process, by its kind."""

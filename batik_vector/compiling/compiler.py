@@ -154,6 +154,7 @@ def _blank(recipe: Recipe, cell: Cell) -> Artwork:
         cell=cell,
         layers=(),
         cloth=recipe.cloth.colour,
+        dyeing=recipe.dyeing,
         tolerance=recipe.tolerance,
         provenance=Provenance(recipe.source, recipe.seed, __version__),
     )

@@ -173,6 +173,12 @@ Colour: TypeAlias = Annotated[str, Text(parse_colour, "#rrggbb or #rgb", _COLOUR
 """A colour on screen."""
 
 
+class Unset(str):
+    """A text that stands in for one that was not given, equal to it: as a default it tells the two apart."""
+
+    __slots__ = ()
+
+
 @frozen
 class OneOf:
     """Marks a value that a recipe writes as a table whose ``tag`` names a class of a catalogue.

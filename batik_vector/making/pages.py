@@ -53,9 +53,9 @@ class Latest:
 
     def __init__(self) -> None:
         self._asked: tuple[Page, tuple[ProcessSpec, ...], Machine] | None = None
-        self._done: tuple[Prepared, Mapping[str, Any]] | None = None
+        self._done: tuple[Prepared | Artwork, Mapping[str, Any]] | None = None
 
-    def through(self, page: Page, output: OutputSpec) -> tuple[Prepared, Mapping[str, Any]]:
+    def through(self, page: Page, output: OutputSpec) -> tuple[Prepared | Artwork, Mapping[str, Any]]:
         """Return a page as the processes of an output, one at least, leave it, and what they report."""
         asked = page, output.process, output.machine_profile or Machine()
         known = self._asked
@@ -67,8 +67,20 @@ class Latest:
 def divided(page: Page, output: OutputSpec, latest: Latest) -> list[Part]:
     """Return the files of an output: one, unless its format divides what is too large for it.
 
-    What is divided goes through its processes first, once for all parts.
+    A process may leave several pages. What a format divides goes through its processes first, once for all
+    parts.
     """
+    for number, process in enumerate(output.process):
+        with _keyed(_process_key(output.process, number)):
+            found = process.parts(page)
+        if found:
+            before, after = output.process[:number], output.process[number + 1 :]
+            each = [(name, replace(output, process=(*before, own, *after))) for name, own in found]
+            return [
+                replace(part, ending=f"-{name}{part.ending}")
+                for name, own in each
+                for part in divided(page, own, latest)
+            ]
     kind = FORMATS[output.format]
     if not kind.divides(output.options):
         return [Part(page, output)]
@@ -105,7 +117,7 @@ def prepared(page: Page, output: OutputSpec, latest: Latest | None = None) -> tu
     if not output.process:
         return page, {}
     done, facts = (latest or Latest()).through(page, output)
-    if not getattr(output, "travel", False):
+    if not getattr(output, "travel", False) or isinstance(done, Artwork):
         return done, facts
     from batik_vector.processes.travel import with_travel
 
@@ -114,13 +126,18 @@ def prepared(page: Page, output: OutputSpec, latest: Latest | None = None) -> tu
 
 def _through(
     page: Page, processes: Sequence[ProcessSpec], machine: Machine
-) -> tuple[Prepared, Mapping[str, Any]]:
+) -> tuple[Prepared | Artwork, Mapping[str, Any]]:
     facts: dict[str, Any] = {}
     for number, process in enumerate(processes):
-        with _keyed(f"process[{number}]" if len(processes) > 1 else "process"):
+        with _keyed(_process_key(processes, number)):
             page = done = process.apply(page, machine)
         facts |= done.facts
     return done, facts
+
+
+def _process_key(processes: Sequence[ProcessSpec], number: int) -> str:
+    """Return the key of one of several processes, or of the one there is."""
+    return f"process[{number}]" if len(processes) > 1 else "process"
 
 
 @contextmanager

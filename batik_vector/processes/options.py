@@ -12,17 +12,18 @@ import json
 import re
 from dataclasses import field
 from importlib import import_module
-from typing import TYPE_CHECKING, Annotated, ClassVar, Self, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self, TypeAlias
 
 from batik_vector.errors import GeometryError
 from batik_vector.fields import Between, Length, OneOf, Says, check
 from batik_vector.processes.cutting.choices import Inks, Keep, LineBodies, Narrow, Start, Turns
 from batik_vector.processes.hatching.options import AnyHatch
+from batik_vector.processes.waxing.choices import Plates, Removal
 from batik_vector.units import format_mm
 from batik_vector.values import frozen
 
 if TYPE_CHECKING:
-    from batik_vector.artwork import Page
+    from batik_vector.artwork import Artwork, Page
     from batik_vector.machines import Machine
     from batik_vector.processes.prepared import Prepared
 
@@ -40,14 +41,28 @@ class ProcessSpec:
     def __post_init__(self) -> None:
         check(self)
 
-    def apply(self, page: Page, machine: Machine) -> Prepared:
+    def apply(self, page: Page, machine: Machine) -> Prepared | Artwork:
         """Return a page as the process leaves it.
 
         Raises:
             GeometryError: with the key at fault and the value that would do.
         """
-        done: Prepared = import_module(self.module).apply(page, self.resolved(machine), machine)
+        done: Prepared | Artwork = self._applied(page, machine)
         return done
+
+    def _applied(self, page: Page, machine: Machine) -> Any:
+        return import_module(self.module).apply(page, self.resolved(machine), machine)
+
+    def parts(self, page: Page) -> list[tuple[str, Self]]:
+        """Return the files over which what the process leaves is divided, none where it is not.
+
+        Returns:
+            What is added to the name of each, and the process that leaves what is in it.
+
+        Raises:
+            GeometryError: as :meth:`apply`.
+        """
+        return []
 
     def resolved(self, machine: Machine) -> Self:
         """Return the process with what it leaves unset as the machine's tool has it."""
@@ -60,6 +75,16 @@ class ProcessSpec:
         """Return the process as ``--process`` takes it, without what stands at its default."""
         said = [f"{name}={value}" for name, value in _chosen(self)]
         return " ".join([self.kind, *said])
+
+
+@frozen(kw_only=True)
+class StrokeProcess(ProcessSpec):
+    """A process that leaves the strokes of tools."""
+
+    def apply(self, page: Page, machine: Machine) -> Prepared:
+        """Return the strokes that tools make of a page; see :meth:`ProcessSpec.apply`."""
+        done: Prepared = self._applied(page, machine)
+        return done
 
 
 def _chosen(spec: object, before: str = "") -> list[tuple[str, str]]:
@@ -120,7 +145,7 @@ Pen = Annotated[int, Between(1, 98)]
 
 
 @frozen(kw_only=True)
-class PlotProcess(ProcessSpec):
+class PlotProcess(StrokeProcess):
     """Outlines and lines as strokes for a pen: each drawn once, joined, with short ways between."""
 
     kind = "plot"
@@ -153,7 +178,7 @@ class PlotProcess(ProcessSpec):
 
 
 @frozen(kw_only=True)
-class CutProcess(ProcessSpec):
+class CutProcess(StrokeProcess):
     """Closed contours for a knife or a laser, the inner before the outer."""
 
     kind = "cut"
@@ -231,7 +256,37 @@ class CutProcess(ProcessSpec):
             raise GeometryError(f"sheet_number = {self.sheet_number}, expected the size of a sheet beside it")
 
 
-PROCESSES: dict[str, type[ProcessSpec]] = {each.kind: each for each in (PlotProcess, CutProcess)}
+@frozen(kw_only=True)
+class WaxProcess(ProcessSpec):
+    """Wax plates of a dyeing: what is waxed, and what scraped off again, before each bath."""
+
+    kind = "wax"
+    module = "batik_vector.processes.wax"
+
+    removal: Annotated[
+        Removal, Says("scrape wax off between baths (javanese), or add to it alone (add-only)")
+    ] = Removal.JAVANESE
+    plates: Annotated[
+        Plates, Says("one for each step of the work (steps), or all wax in each bath (baths)")
+    ] = Plates.STEPS
+    plate: Annotated[
+        str,
+        Says("the one in the file, all as its layers (all), or what comes out (cloth); a file each if unset"),
+    ] = ""
+    mirror: Annotated[bool, Says("left and right changed, for the back of the cloth")] = False
+
+    def apply(self, page: Page, machine: Machine) -> Artwork:
+        """Return a plate, all as layers, or the cloth; see :meth:`ProcessSpec.apply`."""
+        done: Artwork = self._applied(page, machine)
+        return done
+
+    def parts(self, page: Page) -> list[tuple[str, Self]]:
+        """Return a file for each plate, where none is named."""
+        found: list[tuple[str, Self]] = import_module(self.module).parts(page, self)
+        return found
+
+
+PROCESSES: dict[str, type[ProcessSpec]] = {each.kind: each for each in (PlotProcess, CutProcess, WaxProcess)}
 """The catalogue of processes."""
 
 AnyProcess: TypeAlias = Annotated[ProcessSpec, OneOf(lambda: PROCESSES, "process")]

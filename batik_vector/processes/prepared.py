@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from batik_vector.artwork import Cell, Ink, Margins, Page, Plate, Provenance
+from batik_vector.artwork import Cell, Dyeing, Ink, Margins, Page, Plate, Provenance, dyeing_of
 from batik_vector.errors import ExportError
 from batik_vector.geometry.outlines import Outlines, together
 from batik_vector.values import frozen
@@ -79,6 +79,11 @@ class Prepared:
     def cloth(self) -> str:
         """The ground's colour on screen."""
         return self.page.cloth
+
+    @property
+    def dyeing(self) -> Dyeing | None:
+        """The baths that the cloth goes through."""
+        return dyeing_of(self.page)
 
     @property
     def tolerance(self) -> float:

@@ -6,11 +6,12 @@ from collections.abc import Iterator
 from dataclasses import field, replace
 from typing import Annotated, TypeAlias
 
-from batik_vector.artwork import Overlap
+from batik_vector.artwork import Dyeing, Overlap
 from batik_vector.errors import Fault, GeometryError, RecipeError
-from batik_vector.fields import HIDDEN, Between, Colour, Length, OneOf, Says, check
+from batik_vector.fields import HIDDEN, Between, Colour, Length, OneOf, Says, Unset, check
 from batik_vector.recipe.border import BorderSpec
 from batik_vector.recipe.drawing import Svg
+from batik_vector.recipe.dyeing import BathSpec, Dyed, Inks, dyeing_of, faults_of, ink_key
 from batik_vector.recipe.motif import MOTIFS, Motif, Treatment
 from batik_vector.recipe.outputs import AnyOutput, OutputSpec
 from batik_vector.recipe.placement import Placement
@@ -26,9 +27,14 @@ AnyMotif: TypeAlias = Annotated[Motif, OneOf(lambda: MOTIFS, "motif")]
 class InkSpec:
     """One bath, screen, pen or tool. The order of the inks in the recipe is their painting order."""
 
-    colour: Annotated[Colour, Says("colour on screen")] = "#1a1a1a"
+    colour: Annotated[Colour, Says("colour on screen; where there are baths, what they give if left out")] = (
+        Unset("#1a1a1a")
+    )
     width: Annotated[Annotated[Length, Between(0.01, 100)], Says("breadth of a line drawn with it")] = 1.0
     overlap: Annotated[Overlap, Says("what its marks do to one another and to inks beneath")] = Overlap.WELD
+    baths: Annotated[
+        tuple[str, ...] | None, Says("the baths that cloth of this colour sees; [] for what stays undyed")
+    ] = None
 
     def __post_init__(self) -> None:
         check(self)
@@ -42,7 +48,11 @@ def _one_ink() -> dict[str, InkSpec]:
 class ClothSpec:
     """The ground."""
 
-    colour: Annotated[Colour, Says("colour on screen")] = "#ffffff"
+    colour: Annotated[Colour, Says("colour on screen; where there are baths, what they give if left out")] = (
+        Unset("#ffffff")
+    )
+    baths: Annotated[tuple[str, ...] | None, Says("the baths that bare cloth sees; all if left out")] = None
+    undyed: Annotated[Colour, Says("colour of the cloth before the first bath")] = Unset("#f4efe2")
 
     def __post_init__(self) -> None:
         check(self)
@@ -69,6 +79,7 @@ class Recipe:
         default_factory=_one_ink
     )
     cloth: Annotated[ClothSpec, Says("the ground")] = field(default_factory=ClothSpec)
+    bath: Annotated[tuple[BathSpec, ...], Says("the dye baths, in the order of dyeing")] = ()
     output: Annotated[tuple[AnyOutput, ...], Says("files to write")] = ()
     drawing: Annotated[
         dict[str, str],
@@ -83,8 +94,10 @@ class Recipe:
         self._take_colours()
         faults = [fault for _, fault in unknown_references(self)]
         faults += self._missing() + self._bad_names() + self._without_ink() + self._bad_symmetries()
+        faults += faults_of(self.bath, self.cloth.undyed, self._dyed(), self._ground())
         if faults:
             raise RecipeError(faults)
+        self._take_dyes()
 
     def _take_colours(self) -> None:
         """Make inks of the colours that drawings keep: of each that no ink has, one called after it."""
@@ -103,6 +116,27 @@ class Recipe:
         }
         object.__setattr__(self, "motif", self.motif | motifs)
         object.__setattr__(self, "ink", written | fresh)
+
+    def _dyed(self) -> Inks:
+        return {name: Dyed(ink_key(name), ink.baths, ink.colour) for name, ink in self.ink.items()}
+
+    def _ground(self) -> Dyed:
+        return Dyed("cloth", self.cloth.baths, self.cloth.colour)
+
+    def _take_dyes(self) -> None:
+        """Give inks and ground that name no colour the one that their baths give them."""
+        dyeing = self.dyeing
+        if dyeing is None:
+            return
+        inks = {name: replace(ink, colour=dyeing.colour(dyeing.inks[name])) for name, ink in self.ink.items()}
+        cloth = replace(self.cloth, colour=dyeing.colour(dyeing.ground), undyed=dyeing.undyed)
+        object.__setattr__(self, "ink", inks)
+        object.__setattr__(self, "cloth", cloth)
+
+    @property
+    def dyeing(self) -> Dyeing | None:
+        """How the cloth is dyed, where the recipe has baths."""
+        return dyeing_of(self.bath, self.cloth.undyed, self._dyed(), self._ground()) if self.bath else None
 
     @property
     def tiling(self) -> TileSpec:
@@ -190,4 +224,14 @@ class Recipe:
         )
 
 
-__all__ = ["ClothSpec", "Cut", "InkSpec", "OutputSpec", "Placement", "Recipe", "TileSpec", "YardageSpec"]
+__all__ = [
+    "BathSpec",
+    "ClothSpec",
+    "Cut",
+    "InkSpec",
+    "OutputSpec",
+    "Placement",
+    "Recipe",
+    "TileSpec",
+    "YardageSpec",
+]

@@ -129,6 +129,25 @@ BEYOND = {
     ),
     *("path data that break off", "a path of one point", "a path that is open", "a path out of this world"),
     *("one point", "a corner beyond the points"),
+    *(
+        "a bath twice",
+        "a bath without a name",
+        "an ink in no bath",
+        "an ink in no bath nor colour",
+        "an unknown bath",
+        "a bath twice of an ink",
+        "baths of a recipe without",
+        "a bath that dyes nothing",
+        "a colour that baths contradict",
+        "an undyed colour that contradicts",
+        "colours of the same baths",
+        "too many baths",
+        "wax without baths",
+        "no such plate",
+        "no such plate at all",
+        "wax that would have to come off",
+        "colours on either side",
+    ),
 }
 """What no schema can say: how values hang together; and what is no TOML."""
 

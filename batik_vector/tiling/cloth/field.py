@@ -7,7 +7,7 @@ nothing. A field is drawn piece by piece, as a cloth is.
 
 from __future__ import annotations
 
-from batik_vector.artwork import Artwork, Cell, DropAxis, Ink, Layer, Margins, Page
+from batik_vector.artwork import Artwork, Cell, DropAxis, Ink, Layer, Margins, Page, dyeing_of
 from batik_vector.errors import TooLargeError
 from batik_vector.geometry.outlines import Outlines, to_polygons, to_polylines, together
 from batik_vector.tiling.cloth.windows import PIECE, Filling
@@ -46,6 +46,7 @@ def field_page(artwork: Artwork, across: int = 1, up: int = 1, bleed: float = 0.
         filling=Filling(tile, Window(-side, -side, cell.columns + side, cell.rows + side), piece=PIECE),
         origin=(0, 0),
         drawn=tuple(drawn_inks(artwork)),
+        dyeing=artwork.dyeing,
     )
 
 
@@ -68,7 +69,16 @@ def collected(page: Page) -> Artwork:
         areas, lines = together(list(page.areas(number))), together(list(page.lines(number)))
         layers.append(_made(plate.ink, areas, lines))
     kept = tuple(layer for layer in layers if len(layer.areas) or len(layer.lines))
-    return Artwork(page.title, page.cell, kept, page.cloth, page.tolerance, page.bleed, page.provenance)
+    return Artwork(
+        page.title,
+        page.cell,
+        kept,
+        page.cloth,
+        page.tolerance,
+        page.bleed,
+        page.provenance,
+        dyeing=dyeing_of(page),
+    )
 
 
 def _made(ink: Ink, areas: Outlines, lines: Outlines) -> Layer:

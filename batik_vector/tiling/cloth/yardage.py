@@ -15,7 +15,7 @@ from typing import Any, Protocol
 import numpy as np
 import shapely
 
-from batik_vector.artwork import Artwork, Cell, Geometries, Ink, Layer, Margins, Plate, Provenance
+from batik_vector.artwork import Artwork, Cell, Dyeing, Geometries, Ink, Layer, Margins, Plate, Provenance
 from batik_vector.errors import GeometryError, TooLargeError
 from batik_vector.geometry.outlines import MM, Outlines, Steps, nothing, of_polygons, of_polylines
 from batik_vector.tiling.cloth.clusters import clustered
@@ -98,6 +98,7 @@ class Yardage:
     guides: Guides | None = None
     facts: Mapping[str, Any] = field(default_factory=dict)
     tell: Callable[[str], None] = field(default=lambda words: None)
+    dyeing: Dyeing | None = None
 
     @property
     def plates(self) -> tuple[Plate, ...]:
@@ -201,6 +202,7 @@ def _page(
         cloth=artwork.cloth,
         tolerance=artwork.tolerance,
         provenance=artwork.provenance,
+        dyeing=artwork.dyeing,
         vertex_count=count,
         filling=filling,
         origin=origin,

@@ -1,0 +1,185 @@
+"""Wax: the plates of a dyeing, each the areas of cloth that are waxed, or scraped off again, at one step.
+
+Regions are taken as they show, by the baths that their cloth sees. A plate is an artwork like another: it can
+be written as it is, plotted by a wax pen, or cut out as a stencil.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+import shapely
+
+from batik_vector.artwork import Artwork, Dyeing, Geometries, Ink, Layer, Page, dyeing_of
+from batik_vector.errors import GeometryError, nearest
+from batik_vector.machines import Machine
+from batik_vector.processes.options import WaxProcess
+from batik_vector.processes.waxing.choices import ALL, CLOTH, Removal
+from batik_vector.processes.waxing.planning import Doing, Plate, planned, plates
+from batik_vector.processes.waxing.regions import Shown, shown
+from batik_vector.processes.waxing.verdict import colours_of, refusal
+from batik_vector.units import STEPS_PER_MM
+
+STAYS, COMES_OFF, SCRAPED = "#7a4a1e", "#c98f3c", "#d9b98a"
+"""The colours of plates on screen: strong wax, wax that is scraped off again, and where it is."""
+
+
+def apply(page: Page, spec: WaxProcess, machine: Machine) -> Artwork:
+    """Return a plate, all of them as layers, or the cloth as it comes out.
+
+    Raises:
+        GeometryError: where the page says of no baths, has no such plate, or has colours that cannot be dyed.
+        ExportError: where the page is too large.
+    """
+    dyeing, made = _asked(page, spec)
+    seen = shown(page)
+    if spec.plate == CLOTH:
+        layers, cloth = _cloth(seen, dyeing), dyeing.colour(dyeing.ground)
+    else:
+        chosen = made if spec.plate in ("", ALL) else [_named(spec.plate, made)]
+        layers, cloth = [_layer(seen, dyeing, each) for each in chosen], dyeing.undyed
+    done = Artwork(
+        page.title,
+        page.cell,
+        tuple(layers),
+        cloth,
+        page.tolerance,
+        page.bleed,
+        replace(page.provenance, processes=(*page.provenance.processes, str(spec))),
+        _borders(page, layers),
+        {"wax": _facts(page, dyeing, spec, made, layers)},
+        dyeing,
+    )
+    return _mirrored(done) if spec.mirror else done
+
+
+def parts(page: Page, spec: WaxProcess) -> list[tuple[str, WaxProcess]]:
+    """Return the files of plates, one each, and what is added to their names; none where one file holds all.
+
+    Raises:
+        GeometryError: as :func:`apply`.
+    """
+    if spec.plate:
+        return []
+    _, made = _asked(page, spec)
+    return [(_slug(each.name), replace(spec, plate=_slug(each.name))) for each in made]
+
+
+def _asked(page: Page, spec: WaxProcess) -> tuple[Dyeing, Sequence[Plate]]:
+    """Return how a page is dyed, and its plates."""
+    dyeing = dyeing_of(page)
+    if dyeing is None:
+        raise GeometryError(
+            "expected a recipe with baths: write [[bath]] tables in their order, each with a name and a "
+            "colour, and the baths of each ink"
+        )
+    inks = [plate.ink.name for plate in page.plates if not plate.guide]
+    if unknown := [name for name in inks if name not in dyeing.inks]:
+        raise GeometryError(f'ink "{unknown[0]}" is in no bath: plates are made of the design as drawn')
+    colours = colours_of(dyeing, inks)
+    if spec.removal is Removal.ADD_ONLY and (words := refusal(dyeing, colours)):
+        raise GeometryError(f'removal = "{spec.removal}": {words}')
+    return dyeing, plates(dyeing, colours.values(), spec.removal, spec.plates)
+
+
+def _named(name: str, made: Sequence[Plate]) -> Plate:
+    """Return a plate by its name, with its number or without."""
+    found = [each for each in made if _slug(name) in (_slug(each.name), _slug(each.step.name))]
+    if len(found) == 1:
+        return found[0]
+    names = [_slug(each.name) for each in (found or made)]
+    near = None if found else nearest(_slug(name), names)
+    many = f"is the name of {len(found)} plates: " if found else ""
+    raise GeometryError(
+        f'plate = "{name}", {many}'
+        + (f'did you mean "{near}"?' if near else f"expected one of {', '.join([*names, ALL, CLOTH])}")
+    )
+
+
+def _slug(name: str) -> str:
+    """Return a name as files have it."""
+    kept = "".join(c if c.isalnum() or c in "+_." else "-" for c in name.strip())
+    return "-".join(filter(None, kept.split("-"))).rstrip(".")
+
+
+def _layer(seen: Shown, dyeing: Dyeing, plate: Plate) -> Layer:
+    colour = SCRAPED if plate.step.doing is Doing.SCRAPE else STAYS if plate.step.stays else COMES_OFF
+    return Layer(Ink(_slug(plate.name), colour), _in_mm(seen.region(dyeing, plate.step.sets)))
+
+
+def _cloth(seen: Shown, dyeing: Dyeing) -> list[Layer]:
+    """Return what shows of each ink, in the colour that its baths give; nothing lies under anything."""
+    layers = []
+    for number, name in enumerate(seen.inks):
+        areas = _in_mm(seen.arrangement.region(seen.top == number))
+        if len(areas):
+            layers.append(Layer(Ink(name, dyeing.colour(dyeing.inks[name])), areas))
+    return layers
+
+
+def _in_mm(areas: Geometries) -> Geometries:
+    if not len(areas):
+        return areas
+    return np.asarray(shapely.transform(areas, lambda xy: xy / STEPS_PER_MM), dtype=object)
+
+
+def _borders(page: Page, layers: Sequence[Layer]) -> frozenset[tuple[str, int, int, int]]:
+    """Return where marks end along the seam on purpose: any plate may, where an ink of the page does."""
+    found = {(axis, low, high) for _, axis, low, high in getattr(page, "borders", ())}
+    return frozenset((layer.ink.name, *each) for layer in layers for each in found)
+
+
+def _mirrored(page: Artwork) -> Artwork:
+    """Return a page as it is seen from behind: left and right change places."""
+    width = page.cell.columns / STEPS_PER_MM
+
+    def turned(areas: Geometries) -> Geometries:
+        if not len(areas):
+            return areas
+        points = shapely.transform(areas, lambda xy: np.stack([_back(xy[:, 0], width), xy[:, 1]], axis=1))
+        return np.asarray(shapely.orient_polygons(points), dtype=object)
+
+    cell = replace(page.cell, drop=-page.cell.drop % 1 if page.cell.drop else Fraction(0))
+    layers = tuple(replace(layer, areas=turned(layer.areas)) for layer in page.layers)
+    return replace(page, cell=cell, layers=layers, borders=_turned(page))
+
+
+def _back(x: Any, width: float) -> Any:
+    """Return places mirrored, on the grid."""
+    return np.rint((width - x) * STEPS_PER_MM) / STEPS_PER_MM
+
+
+def _turned(page: Artwork) -> frozenset[tuple[str, int, int, int]]:
+    width = page.cell.columns
+    return frozenset(
+        (ink, axis, low, high) if axis == 0 else (ink, axis, width - high, width - low)
+        for ink, axis, low, high in page.borders
+    )
+
+
+def _facts(
+    page: Page, dyeing: Dyeing, spec: WaxProcess, made: Sequence[Plate], layers: Sequence[Layer]
+) -> dict[str, Any]:
+    """Return what there is to say of plates: their areas, and the order of work."""
+    whole = page.cell.width * page.cell.height
+    area = {layer.ink.name: float(shapely.area(layer.areas).sum()) for layer in layers}
+    pieces = {layer.ink.name: len(layer.areas) for layer in layers}
+    inks = [plate.ink.name for plate in page.plates if not plate.guide]
+    steps = planned(dyeing, colours_of(dyeing, inks).values(), spec.removal)
+    return {
+        "removal": str(spec.removal),
+        "plates": [
+            {
+                "plate": name,
+                "area_mm2": round(each, 3),
+                "covers": round(each / whole, 6),
+                "pieces": pieces[name],
+            }
+            for name, each in area.items()
+        ],
+        "work": [{"step": each.name, "doing": str(each.doing), "bath": each.bath} for each in steps],
+    }

@@ -1,0 +1,1 @@
+"""Wax resist: the plates of a dyeing, bath by bath."""
