@@ -119,7 +119,7 @@ class Draft:
     def value(self, path: Where) -> Any:
         """Return what the text says at a path, or None where it says nothing."""
         node: Any = self.tables
-        for part in parsed(path):
+        for part in self._actual(path):
             try:
                 node = node[part]
             except (LookupError, TypeError):
@@ -143,7 +143,7 @@ class Draft:
         Raises:
             RecipeError: where the text is no TOML, or the path leads nowhere.
         """
-        where = parsed(path)
+        where = self._actual(path)
         if value is None:
             return self.without(where)
         return self._rewritten(where, lambda: self._set(where, value))
@@ -165,6 +165,8 @@ class Draft:
                 # The first that is not written is written with what it was by default.
                 table = plain(around.hint, around.default)
                 _put(table, around, where[depth:], value)
+                if around.hint.items:
+                    table = as_written(around.hint, table)
                 return rewriting.with_value(self.text, where[:depth], table)
             if around is not None and around.said is MISSING and around.hint.items:
                 numbers: list[Any] = list(middle_of(self.tables) if where[depth - 1] == "at" else ())
@@ -178,7 +180,7 @@ class Draft:
 
         A key that is not there is no fault.
         """
-        where = parsed(path)
+        where = self._actual(path)
         around = self.value(where[:-1]) if len(where) > 1 else self.tables
         there = where[-1] in around if isinstance(around, dict) else self.value(where) is not None
         return self._rewritten(where, lambda: rewriting.without(self.text, where)) if there else self
@@ -197,10 +199,15 @@ class Draft:
         Raises:
             RecipeError: where there is no such list, or the name is taken.
         """
-        where = parsed(path)
+        where = self._actual(path)
+        alone = self.value(where)
         by_name = len(where) == 2 and where[0] in ("motif", "ink", "drawing")
         if by_name and self.value(where) is not None:
             raise RecipeError([Fault("is there already: expected another name", dotted(where))])
+        if not by_name and isinstance(alone, dict):
+            # A table that stands for a list of one.
+            several = [value, alone] if index == 0 else [alone, value]
+            return self._rewritten(where, lambda: rewriting.with_value(self.text, where, several))
         if not by_name:
             return self._rewritten(where, lambda: rewriting.inserted(self.text, where, value, index, written))
         draft = self._rewritten(where, lambda: rewriting.with_value(self.text, where, value))
@@ -212,12 +219,12 @@ class Draft:
 
     def moved(self, path: Where, to: int) -> Draft:
         """Return the draft with a member at another place among its like: of inks, that paints it earlier."""
-        where = parsed(path)
+        where = self._actual(path)
         return self._rewritten(where, lambda: rewriting.moved(self.text, where, to))
 
     def copied(self, path: Where = ()) -> str:
         """Return a part of the recipe as text, to be pasted elsewhere: a member, or all of it."""
-        where = parsed(path) if path else ()
+        where = self._actual(path) if path else ()
         return rewriting.member_text(self.text, where) if where else self.whole
 
     # What else a draft has.
@@ -237,6 +244,21 @@ class Draft:
     def with_drawing(self, file: str, svg: str) -> Draft:
         """Return the draft with an SVG that it carries, by the name that a motif's ``file`` has."""
         return replace(self, drawings=tuple((dict(self.drawings) | {file: svg}).items()))
+
+    def _actual(self, path: Where) -> Path:
+        """Return a path as the text has it: a table that stands for a list of one has no place in it."""
+        node: Any = self.tables
+        found: list[str | int] = []
+        for part in parsed(path):
+            if isinstance(node, dict) and part == 0:
+                continue
+            found.append(part)
+            held = isinstance(node, dict) or (isinstance(node, list) and isinstance(part, int))
+            try:
+                node = node[part] if held else None
+            except LookupError:
+                node = None
+        return tuple(found)
 
     def _rewritten(self, where: Path, change: Any) -> Draft:
         self.tables  # noqa: B018  (raises where the text is no TOML)

@@ -69,18 +69,18 @@ def with_value(text: str, path: Path, value: Any) -> str:
         return _first([lambda: text[:start] + spelled(value) + text[end:]], tables)
     depth = _known_depth(tables, path)
     around, rest = path[:depth], path[depth:]
-    _set(tables, path, value)
     if not rest:
         # A table under headers: what it said goes, and the value comes in its place.
+        _set(tables, path, value)
         return _first([lambda: with_value(without(text, path), path, value)], tables)
+    keys = [part for part in rest if isinstance(part, str)]
+    if len(keys) < len(rest) or not isinstance(_at(tables, around), dict):
+        raise CannotRewriteError("there is no such place in the list")
+    _set(tables, path, value)
     held: Any = value
-    for part in reversed(rest[1:]):
-        if not isinstance(part, str):
-            raise CannotRewriteError(f"there is no list to put place {part} into")
+    for part in reversed(keys[1:]):
         held = {part: held}
-    if not isinstance(rest[0], str):
-        raise CannotRewriteError(f"there is no place {rest[0]} in the list")
-    key = rest[0]
+    key = keys[0]
     ways = [lambda: _added(text, around, key, held), lambda: _headed(text, (*around, key), held)]
     return _first(ways, tables)
 
@@ -96,7 +96,12 @@ def without(text: str, path: Path) -> str:
     if not _has(around, path[-1]):
         raise CannotRewriteError("nothing stands there")
     del around[path[-1]]
-    return _first([lambda: _cut_out(text, path)], tables)
+    # The header of the only motif is all that says that there are motifs.
+    bare = copy.deepcopy(tables)
+    for depth in range(len(path) - 1, 0, -1):
+        if _at(bare, path[:depth]) in ({}, []) and isinstance(path[depth - 1], str):
+            del _at(bare, path[: depth - 1])[path[depth - 1]]
+    return _first([lambda: _cut_out(text, path)], tables, or_else=bare)
 
 
 def inserted(text: str, path: Path, value: Any, index: int | None = None, written: str = "") -> str:
@@ -162,8 +167,20 @@ def member_text(text: str, path: Path) -> str:
     return text[blocks[0] : blocks[1]].strip("\n") + "\n" if blocks else ""
 
 
-def _first(ways: Sequence[Callable[[], str]], tables: dict[str, Any], ordered: Path | None = None) -> str:
-    """Return what the first way writes that says what is meant; in the end the tables alone."""
+def _first(
+    ways: Sequence[Callable[[], str]],
+    tables: dict[str, Any],
+    ordered: Path | None = None,
+    or_else: dict[str, Any] | None = None,
+) -> str:
+    """Return what the first way writes that says what is meant, or what will do; in the end the tables alone.
+
+    Args:
+        ways: that may fail, or write what says something else.
+        tables: what is meant.
+        ordered: the path of a table whose order is meant too.
+        or_else: what will do.
+    """
     import tomlkit
 
     for way in ways:
@@ -172,7 +189,7 @@ def _first(ways: Sequence[Callable[[], str]], tables: dict[str, Any], ordered: P
             said = tomllib.loads(written)
         except (ValueError, LookupError, TypeError):
             continue
-        if said == tables and (ordered is None or _order(said, ordered) == _order(tables, ordered)):
+        if said in (tables, or_else) and (ordered is None or _order(said, ordered) == _order(tables, ordered)):
             return written
     return tomlkit.dumps(tables)
 

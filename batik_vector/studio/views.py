@@ -21,7 +21,7 @@ from batik_vector.making.facts import facts_of, warnings
 from batik_vector.making.promised import asked_group
 from batik_vector.recipe.loading import located, read_recipe
 from batik_vector.recipe.model import Recipe, YardageSpec
-from batik_vector.studio.asking import View
+from batik_vector.studio.asking import View as View
 from batik_vector.studio.drafts import Draft
 from batik_vector.studio.draping import FORMS, draped
 from batik_vector.studio.lines import as_lines
