@@ -26,10 +26,13 @@ from batik_vector.recipe.reading.tables import tables_of
 from batik_vector.recipe.references import Path, dotted
 from batik_vector.studio import rewriting
 from batik_vector.studio.declared import MISSING, Place, inner, place_at, plain
+from batik_vector.studio.offers import kinded, known_keys
 from batik_vector.studio.spelling import as_written
 from batik_vector.units import parse_length
 from batik_vector.values import frozen
 
+UNSAID = "ink"
+"""The ink of a recipe that says none."""
 Where: TypeAlias = str | Path
 """A path as people write it, or taken apart."""
 
@@ -134,7 +137,8 @@ class Draft:
     def with_value(self, path: Where, value: Any) -> Draft:
         """Return the draft with a value set, spelled as the one before: lengths keep their unit.
 
-        What stands around it and was left out is written with its defaults, so that nothing else changes.
+        What stands around it and was left out is written with its defaults, so that nothing else changes. A
+        kind that is set takes along what it knows of the one before.
 
         Args:
             path: of the value.
@@ -146,6 +150,10 @@ class Draft:
         where = self._actual(path)
         if value is None:
             return self.without(where)
+        around = place_at(self.tables, where[:-1])
+        one_of = around.hint.one_of if around is not None else None
+        if around is not None and one_of is not None and where[-1] == one_of.tag and isinstance(value, str):
+            return self._with_kind(where, str(one_of.tag), value, known_keys(around.hint, value))
         return self._rewritten(where, lambda: self._set(where, value))
 
     def with_values(self, values: Mapping[Where, Any] | Sequence[tuple[Where, Any]]) -> Draft:
@@ -153,6 +161,27 @@ class Draft:
         draft = self
         for path, value in values.items() if isinstance(values, Mapping) else values:
             draft = draft.with_value(path, value)
+        return draft
+
+    def _with_kind(self, where: Path, tag: str, kind: str, known: set[str]) -> Draft:
+        """Return the draft with a table of another kind; what that does not know of the old one goes."""
+        table = where[:-1]
+        old = self.value(table) or {}
+        draft = self._rewritten(where, lambda: self._set(where, kind))
+        if not isinstance(old, dict) or not known:
+            return draft
+        for key in old:
+            if key != tag and key not in known:
+                draft = draft.without((*table, key))
+        for key, value in kinded(kind, tag).items():
+            if draft.value((*table, key)) is None:
+                draft = draft.with_value((*table, key), value)
+        # A key of one name may be of two kinds.
+        before = {fault.key for fault in self.faults}
+        wrong = {fault.key for fault in draft.faults} - before
+        for key in old:
+            if key != tag and any(each.startswith(dotted((*table, key))) for each in wrong):
+                draft = draft.without((*table, key))
         return draft
 
     def _set(self, where: Path, value: Any) -> str:
@@ -200,18 +229,34 @@ class Draft:
             RecipeError: where there is no such list, or the name is taken.
         """
         where = self._actual(path)
-        alone = self.value(where)
+        bare = self.value(where)
         by_name = len(where) == 2 and where[0] in ("motif", "ink", "drawing")
         if by_name and self.value(where) is not None:
             raise RecipeError([Fault("is there already: expected another name", dotted(where))])
-        if not by_name and isinstance(alone, dict):
+        if not by_name and isinstance(bare, dict):
             # A table that stands for a list of one.
-            several = [value, alone] if index == 0 else [alone, value]
+            several = [value, bare] if index == 0 else [bare, value]
             return self._rewritten(where, lambda: rewriting.with_value(self.text, where, several))
         if not by_name:
             return self._rewritten(where, lambda: rewriting.inserted(self.text, where, value, index, written))
-        draft = self._rewritten(where, lambda: rewriting.with_value(self.text, where, value))
-        return draft if index is None else draft.moved(where, index)
+        draft = self
+        if where[0] == "ink" and "ink" not in self.tables:
+            # The one ink that there was without a word.
+            draft = draft.with_value(("ink", UNSAID), {})
+        text, inks = draft.text, draft.tables.get("ink")
+        draft = draft._rewritten(where, lambda: rewriting.with_value(text, where, value))
+        if index is not None:
+            draft = draft.moved(where, index)
+        alone = where[0] == "ink" and isinstance(inks, dict) and len(inks) == 1
+        return draft._inked(next(iter(inks))) if alone and inks else draft
+
+    def _inked(self, first: str) -> Draft:
+        """Return the draft with an ink said by all that said none, as there was but this one until now."""
+        draft = self
+        for fault in self.faults:
+            if fault.key.endswith(".ink") and fault.message.startswith("missing"):
+                draft = draft.with_value(fault.key, first)
+        return draft
 
     def removed(self, path: Where) -> Draft:
         """Return the draft without a member: ``place[1]``, ``ink.wax``, ``motif.flower.elements[0]``."""

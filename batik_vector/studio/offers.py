@@ -41,6 +41,7 @@ NEEDED: Mapping[str, Mapping[str, Any]] = {
         "heading": 90,
         "width": 0.3,
     },
+    "places": {"at": [[0, 0]]},
     "points": {"points": [[1, 0], [0, 0.5], [-1, 0], [0, -0.5]], "smooth": True},
     "ifs": {"maps": [{"turn": 0}, {"turn": 90}]},
 }
@@ -60,8 +61,13 @@ def offers(hint: Hint, path: Path, tables: Mapping[str, Any]) -> tuple[Offer, ..
     if path == ("ink",):
         number = len(_table(tables, "ink"))
         return (_named("ink", ("ink",), tables, {"colour": COLOURS[number % len(COLOURS)]}),)
+    if last == "corner_place" and _corner(path, tables) != "motif":
+        return ()
     if last in ("place", "corner_place"):
         return tuple(_places(path, tables))
+    if path == ("border",) and "yardage" not in tables:
+        # Borders go round a cloth.
+        return ()
     if path == ("drawing",):
         return ()
     single = hint.item is None
@@ -77,7 +83,7 @@ def offers(hint: Hint, path: Path, tables: Mapping[str, Any]) -> tuple[Offer, ..
 
 def kinded(kind: str, tag: str = "kind") -> dict[str, Any]:
     """Return the least table of a kind."""
-    return {tag: kind, **NEEDED.get(kind, {})}
+    return {tag: kind, **(NEEDED.get(kind, {}) if tag == "kind" else {})}
 
 
 def _kinds(hint: Hint | None) -> Sequence[str]:
@@ -110,6 +116,14 @@ def _places(path: Path, tables: Mapping[str, Any]) -> list[Offer]:
     return [Offer(name, dotted(path), {"motif": name, **value}) for name in _table(tables, "motif")]
 
 
+def _corner(path: Path, tables: Mapping[str, Any]) -> Any:
+    """Return how the border of a list of placements turns its corners."""
+    try:
+        return tables["border"][path[1]]["corner"]
+    except (LookupError, TypeError):
+        return None
+
+
 def _tile_width(tables: Mapping[str, Any]) -> float:
     try:
         return parse_length(tables["tile"]["size"][0])
@@ -119,12 +133,12 @@ def _tile_width(tables: Mapping[str, Any]) -> float:
 
 def _least(key: str, tables: Mapping[str, Any]) -> Any:
     """Return the least table of a key whose class is no catalogue's."""
-    first_ink = next(iter(_table(tables, "ink")), "")
+    inked = {"ink": next(iter(_table(tables, "ink")))} if _table(tables, "ink") else {}
     values: dict[str, Any] = {
         "tile": {"size": [f"{2 * WIDTH:g} mm", f"{2 * WIDTH:g} mm"]},
         "yardage": {"width": f"{METRES:g} mm", "length": f"{METRES:g} mm"},
-        "border": {"size": ["40 mm", "40 mm"]},
-        "rails": {"at": "4 mm", "width": "2 mm", **({"ink": first_ink} if first_ink else {})},
+        "border": {"size": ["40 mm", "40 mm"], "rails": [{"at": "4 mm", "width": "2 mm", **inked}]},
+        "rails": {"at": "4 mm", "width": "2 mm", **inked},
         "elements": {"curve": {"kind": "circle", "radius": 0.1}, "count": 8, "radius": 1.0},
         "marks": {"symbol": "F", "curve": {"kind": "circle", "radius": 0.2}},
         "maps": {"turn": 90},

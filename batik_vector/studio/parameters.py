@@ -431,7 +431,7 @@ def _span(
         ends = low, high
     if ends is None:
         usual = LENGTH if hint.length else 1.0
-        most = _round_up(2 * (abs(held[-1]) if held else 0) or usual)
+        most = _round_up(max(2 * abs(held[-1]) if held else 0.0, 10 * max(low, 0.0)) or usual)
         ends = max(low, -most if low < 0 else 0.0), min(high, most)
     return max(low, min([ends[0], *held])), min(high, max([ends[1], *held]))
 

@@ -189,7 +189,9 @@ def _first(
             said = tomllib.loads(written)
         except (ValueError, LookupError, TypeError):
             continue
-        if said in (tables, or_else) and (ordered is None or _order(said, ordered) == _order(tables, ordered)):
+        if said in (tables, or_else) and (
+            ordered is None or _order(said, ordered) == _order(tables, ordered)
+        ):
             return written
     return tomlkit.dumps(tables)
 
