@@ -35,9 +35,15 @@ def doubles(begin: Floats, end: Floats) -> Doubles:
 
     Every stretch is told once for each time that it is drawn again, of the edges with the later numbers.
     """
-    a, b = np.rint(begin).astype(np.int64), np.rint(end).astype(np.int64)
-    suspects = np.flatnonzero(_shared(_hashes(a, b)) & (a != b).any(axis=1))
-    a, b = a[suspects], b[suspects]
+    numbers = np.empty(len(begin), np.uint64)
+    small = max(_farthest(begin), _farthest(end)) < SMALL
+    for first in range(0, len(begin), BLOCK):
+        block = slice(first, first + BLOCK)
+        numbers[block] = _hashes(_whole(begin[block]), _whole(end[block]), small=small)
+    suspects = np.flatnonzero(_shared(numbers))
+    a, b = _whole(begin[suspects]), _whole(end[suspects])
+    some = (a != b).any(axis=1)
+    suspects, a, b = suspects[some], a[some], b[some]
     way, offset = _line(a, b)
     low, high = _along(a, b, way)
     order = np.lexsort((suspects, low, offset, way[:, 1], way[:, 0]))
@@ -53,9 +59,17 @@ def _line(a: Ints, b: Ints) -> tuple[Ints, Ints]:
     return step, step[:, 0] * a[:, 1] - step[:, 1] * a[:, 0]
 
 
-def _hashes(a: Ints, b: Ints) -> NDArray[np.uint64]:
+def _whole(places: Floats) -> Ints:
+    return np.rint(places).astype(np.int64)
+
+
+def _farthest(places: Floats) -> float:
+    return max(float(places.max(initial=0.0)), -float(places.min(initial=0.0)))
+
+
+def _hashes(a: Ints, b: Ints, *, small: bool) -> NDArray[np.uint64]:
     """Return a number for each edge's line: equal lines have equal numbers, others hardly ever."""
-    if max(np.abs(a).max(initial=0), np.abs(b).max(initial=0)) < SMALL:
+    if small:
         slope, height = _quotients(a, b)
     else:
         way, offset = _line(a, b)
@@ -65,7 +79,11 @@ def _hashes(a: Ints, b: Ints) -> NDArray[np.uint64]:
     return np.asarray(mixed ^ (mixed >> np.uint64(29)))
 
 
+BLOCK = 1 << 16
+"""Edges of which numbers are worked out at a time, so that they stay in the processor's cache."""
 PRIME = 1_000_003
+TABLE = 4
+"""How many places a table has for each number, at least."""
 SMALL = 1 << 25
 """Below it products of coordinates are exact in floats, and so equal fractions have equal quotients."""
 
@@ -83,12 +101,20 @@ def _quotients(a: Ints, b: Ints) -> tuple[NDArray[np.uint64], NDArray[np.uint64]
 
 def _shared(numbers: NDArray[np.uint64]) -> Mask:
     """Return which numbers occur more than once."""
-    ordered = np.sort(numbers)
-    again = np.unique(ordered[1:][ordered[1:] == ordered[:-1]])
-    if not len(again):
-        return np.zeros(len(numbers), bool)
-    place = np.minimum(np.searchsorted(again, numbers), len(again) - 1)
-    return np.asarray(again[place] == numbers)
+    shared = np.zeros(len(numbers), bool)
+    # Most are alone in a table of a few times as many places, and need not be put in order.
+    places = 1 << max(len(numbers) * TABLE - 1, 1).bit_length()
+    place = (numbers & np.uint64(places - 1)).astype(np.intp)
+    own = np.arange(len(numbers), dtype=np.int32)
+    last = np.empty(places, np.int32)
+    last[place] = own
+    met = np.zeros(places, bool)
+    met[place[last[place] != own]] = True
+    asked = np.flatnonzero(met[place])
+    order = asked[np.argsort(numbers[asked], kind="stable")]
+    same = numbers[order][1:] == numbers[order][:-1]
+    shared[order[1:][same]] = shared[order[:-1][same]] = True
+    return shared
 
 
 def _along(a: Ints, b: Ints, way: Ints) -> tuple[Ints, Ints]:

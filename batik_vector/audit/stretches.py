@@ -11,9 +11,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-import shapely
 
-from batik_vector.artwork import Geometries
+from batik_vector.audit.close_boxes import close_pairs
 from batik_vector.audit.contours import Floats, Mask
 from batik_vector.audit.edges import Edges
 from batik_vector.certificate.drawing import Frame
@@ -102,7 +101,7 @@ def neighbours(edges: Edges, reach: float, frame: Frame) -> Iterator[tuple[Index
     one, other, moved = _near(runs, reach, frame)
     last = runs.first + runs.count - 1
     smooth = turns.little(edges, runs.first[one], last[one], runs.first[other], last[other])
-    kept = ~smooth | (moved != 0).any(axis=1)
+    kept = ~smooth | (moved[:, 0] != 0) | (moved[:, 1] != 0)
     one, other, moved = one[kept], other[kept], moved[kept]
     sizes = runs.count[one] * runs.count[other]
     total = np.cumsum(sizes)
@@ -111,24 +110,21 @@ def neighbours(edges: Edges, reach: float, frame: Frame) -> Iterator[tuple[Index
     for rows in np.split(np.arange(len(one)), cuts):
         a, b, row = _expanded(runs, one[rows], other[rows])
         shift = moved[rows][row]
-        bends = (shift != 0).any(axis=1) | ((a < b) & ~turns.little(edges, a, a, b, b))
-        a, b, shift = a[bends], b[bends], shift[bends]
-        close = _may_meet(edges, a, b, shift, reach)
-        yield a[close], b[close], shift[close]
+        close = np.flatnonzero(_may_meet(edges, a, b, shift, reach))
+        a, b, shift = a[close], b[close], shift[close]
+        bends = (shift[:, 0] != 0) | (shift[:, 1] != 0)
+        bends |= (a < b) & ~turns.little(edges, a, a, b, b)
+        yield a[bends], b[bends], shift[bends]
 
 
 def _near(runs: Stretches, reach: float, frame: Frame) -> tuple[Index, Index, Floats]:
     """Return the pairs of stretches that may be within a reach, and how far the other is moved."""
     number, moved = _translates(runs.box, reach, frame)
-    # Of a line from corner to corner the tree keeps the bounds.
-    tree = shapely.STRtree(_diagonals(runs.box[number] + np.tile(moved, 2)))
-    one, other = tree.query(_diagonals(runs.box + np.array([-reach, -reach, reach, reach])))
-    kept = one <= number[other]
-    return one[kept], number[other[kept]], moved[other[kept]]
-
-
-def _diagonals(box: Floats) -> Geometries:
-    return np.asarray(shapely.linestrings(box.reshape(-1, 2, 2)), dtype=object)
+    one, other = close_pairs(runs.box[number] + np.tile(moved, 2), reach)
+    kept = (one < len(runs.box)) & (one <= number[other])
+    own = np.arange(len(runs.box))
+    one, other = np.concatenate([own, one[kept]]), np.concatenate([own, other[kept]])
+    return one, number[other], moved[other]
 
 
 def _expanded(runs: Stretches, one: Index, other: Index) -> tuple[Index, Index, Index]:

@@ -53,3 +53,14 @@ def test_lines_off_the_grid_that_all_but_coincide_are_one_line(turn: float, apar
 def test_circles_that_touch_share_nothing() -> None:
     rings = [shapely.Point(50 + 20 * i, 50).buffer(10, 64).exterior for i in range(2)]
     assert audit(tile([], rings), AGAIN).findings == ()
+
+
+def test_lines_that_share_a_place_in_the_table_are_told_apart() -> None:
+    # More edges than a block, none of them on one line but two.
+    rows = np.arange(70_000, dtype=float)
+    begin = np.column_stack([3 * rows, 7 * rows % 1009])
+    end = begin + np.column_stack([1000 + rows, np.full(len(rows), 31.0)])
+    begin[69_999], end[69_999] = begin[5], end[5]
+    found = doubles(begin, end)
+    assert found.again.tolist() == [69_999]
+    assert found.first.tolist() == [5]
