@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import importlib.util
 import os
 import secrets
@@ -37,13 +38,18 @@ def opened_session(recipe: str | None) -> Session:
     """
     if importlib.util.find_spec("nicegui") is None:
         raise StudioError("the studio needs NiceGUI: pip install 'batik-vector[studio]'")
-    from platformdirs import user_state_path
-
     from batik_vector.studio.drafts import Draft
+    from batik_vector.studio.journal import InUseError, Journal
     from batik_vector.studio.page.session import Session
 
-    folder = user_state_path("batik-vector", appauthor=False)
-    return Session(Draft.read(recipe or BEGUN), folder=folder, pattern="" if recipe else BEGUN)
+    journal = Journal()
+    if recipe is None:
+        # Two studios never work at one draft.
+        for kept in journal.kept():
+            if not kept.in_use:
+                with contextlib.suppress(InUseError):
+                    return Session(journal.restore(kept.key))
+    return Session(journal.begin(Draft.read(recipe or BEGUN)))
 
 
 def listening(port: int) -> socket.socket:
@@ -79,7 +85,7 @@ def serve(session: Session, port: int | None, usual: int, browser: bool, say: Ca
         StudioError: where the port is taken.
     """
     # It would keep a folder of its own where the command is called.
-    os.environ.setdefault("NICEGUI_STORAGE_PATH", str(session.folder / "nicegui"))
+    os.environ.setdefault("NICEGUI_STORAGE_PATH", str(session.desk.path.parent / "nicegui"))
     try:
         door = listening(usual if port is None else port)
     except StudioError:

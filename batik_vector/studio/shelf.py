@@ -7,14 +7,10 @@ drawn takes a compile, so that is done by a process of its own, one picture at a
 from __future__ import annotations
 
 import asyncio
-import multiprocessing
-import signal
-from collections.abc import Sequence
-from concurrent.futures import ProcessPoolExecutor
-from concurrent.futures.process import BrokenProcessPool
 from typing import TYPE_CHECKING, TypeVar
 
 from batik_vector.errors import BatikError, LibraryError
+from batik_vector.studio.aside import Aside
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -22,7 +18,6 @@ if TYPE_CHECKING:
     from batik_vector.library import Library
     from batik_vector.library.searching import Hit
     from batik_vector.library.values import Saved, Version
-    from batik_vector.recipe.model import Recipe
 
 _T = TypeVar("_T")
 
@@ -35,11 +30,10 @@ MOST_FOUND = 400
 class Shelf:
     """The patterns of one library."""
 
-    def __init__(self, path: str | None = None) -> None:
+    def __init__(self, aside: Aside, path: str | None = None) -> None:
         """Look into a library; the user's own where no path is given."""
         self.path = path
-        self._pool: ProcessPoolExecutor | None = None
-        self._turn = asyncio.Lock()
+        self._aside = aside
 
     async def find(self, words: str, where: str = "", *, own: bool = False) -> list[Hit]:
         """Return the patterns that are found; see :meth:`batik_vector.library.Library.search`.
@@ -68,16 +62,6 @@ class Shelf:
         """
         return await self._ask(lambda library: library.version(reference))
 
-    async def save(self, name: str, recipe: Recipe, tags: Sequence[str] = (), note: str = "") -> Saved:
-        """Save a recipe as the newest version of a pattern.
-
-        Raises:
-            BatikError: where it does not compile, the name is none, or the library cannot be written.
-        """
-        return await self._ask(
-            lambda library: library.add(name, recipe, tags=tags, note=note, origin="studio")
-        )
-
     async def restore(self, reference: str) -> Saved:
         """Make an old version the newest."""
         return await self._ask(lambda library: library.restore(reference))
@@ -94,28 +78,10 @@ class Shelf:
         svg = await self._ask(lambda library: library.about(reference).svg)
         if svg:
             return svg
-        async with self._turn:
-            if self._pool is None:
-                self._pool = ProcessPoolExecutor(
-                    1, multiprocessing.get_context("spawn"), signal.signal, (signal.SIGINT, signal.SIG_IGN)
-                )
-            work = self._pool.submit(_drawn, self.path, reference)
-            try:
-                svg = await asyncio.wait_for(asyncio.wrap_future(work), PATIENCE)
-            except (TimeoutError, BrokenProcessPool) as error:
-                self.close()
-                raise LibraryError(f"{reference} could not be drawn") from error
+        svg = await self._aside.run(PATIENCE, _drawn, self.path, reference)
         if not svg:
             raise LibraryError(f"{reference} could not be drawn")
         return svg
-
-    def close(self) -> None:
-        """End the process that draws, whatever it is at."""
-        pool, self._pool = self._pool, None
-        if pool is not None:
-            for process in list(pool._processes.values()):
-                process.kill()
-            pool.shutdown(wait=False, cancel_futures=True)
 
 
 def _asked(path: str | None, question: Callable[[Library], _T]) -> _T:

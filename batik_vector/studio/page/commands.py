@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-import inspect
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from nicegui import ui
 
-from batik_vector.errors import BatikError
+from batik_vector.studio import changes
+from batik_vector.studio.mirroring import mirrored
 from batik_vector.studio.page import dialogs
-from batik_vector.studio.page.parts import icon_button, word_button
+from batik_vector.studio.page.exploring import explore
+from batik_vector.studio.page.exporting import export
+from batik_vector.studio.page.parts import icon_button, telling, word_button
 
 if TYPE_CHECKING:
     from batik_vector.studio.page.session import Session
@@ -25,49 +27,47 @@ class Commands:
         self.session = session
         self._undo: list[ui.element] = []
         self._redo: list[ui.element] = []
+        alter = session.alter
         self.actions: dict[str, Action] = {
             "new": lambda: dialogs.begin(session),
             "open": lambda: ui.run_javascript("studio.choose()"),
             "save": self._save,
             "save-as": lambda: dialogs.save_as(session),
+            "export": lambda: export(session),
             "undo": session.undo,
             "redo": session.redo,
             "copy": self._copy,
             "paste": lambda: dialogs.paste(session),
             "duplicate": session.duplicate,
+            "mirror-across": lambda: alter("mirrored", mirrored),
+            "mirror-down": lambda: alter("mirrored", lambda draft: mirrored(draft, upright=False)),
+            "turn": lambda: alter("turned", lambda draft: changes.turned(draft, 90)),
+            "scale": lambda: dialogs.scale(session),
+            "reset": lambda: alter("motifs reset", lambda draft: changes.reset(draft, "motif")),
+            "vary": session.vary,
+            "explore": lambda: explore(session),
             "keys": dialogs.keys,
             "true-size": dialogs.true_size,
         }
 
-    def do(self, name: str) -> Callable[[], Any]:
-        """Return an action that tells what is wrong with it, in words."""
-
-        async def done() -> None:
-            try:
-                result = self.actions[name]()
-                if inspect.isawaitable(result):
-                    await result
-            except BatikError as error:
-                ui.notify(str(error), type="negative", multi_line=True, close_button="Close")
-
-        return done
-
-    def export(self) -> Any:
-        """Open the export dialog."""
-        return self.do("export")()
+    def do(self, name: str) -> Callable[..., Any]:
+        """Return an action that tells what goes wrong with it."""
+        return telling(lambda: self.actions[name]())
 
     def menus(self) -> None:
         """Draw the menus."""
         for title, rows in MENUS.items():
-            with word_button(title).props("aria-haspopup=menu").classes("menu-name"), ui.menu():
-                for row in rows:
-                    if row is None:
-                        ui.separator()
-                    else:
-                        self._item(*row)
+            with word_button(title).props("aria-haspopup=menu").classes("menu-name"):
+                with ui.menu().props("role=menu auto-close") as menu:
+                    menu.props(f'aria-label="{title}"')
+                    for row in rows:
+                        if row is None:
+                            ui.separator()
+                        else:
+                            self._item(*row)
 
     def _item(self, label: str, name: str, key: str) -> None:
-        with ui.item(on_click=self.do(name)).props("dense v-close-popup clickable role=menuitem") as item:
+        with ui.item(on_click=self.do(name)).props("dense clickable role=menuitem") as item:
             with ui.item_section():
                 ui.item_label(label)
             if key:
@@ -79,6 +79,7 @@ class Commands:
         """Draw the commands that are always at hand."""
         self._undo.append(icon_button("undo", "Undo", self.do("undo"), tip="Undo (Ctrl+Z)"))
         self._redo.append(icon_button("redo", "Redo", self.do("redo"), tip="Redo (Ctrl+Shift+Z)"))
+        icon_button("grid_view", "Explore variations", self.do("explore"))
         icon_button("save", "Save to the library", self.do("save"), tip="Save to the library (Ctrl+S)")
 
     def keys(self) -> None:
@@ -99,8 +100,7 @@ class Commands:
 
     async def _save(self) -> None:
         if self.session.pattern and not self.session.is_included:
-            saved = await self.session.save(self.session.pattern)
-            ui.notify(saved, type="positive")
+            await dialogs.saved(self.session, self.session.pattern)
         else:
             dialogs.save_as(self.session)
 
@@ -111,11 +111,13 @@ class Commands:
 
 MENUS: dict[str, tuple[tuple[str, str, str] | None, ...]] = {
     "File": (
-        ("New …", "new", "Ctrl+Alt+N"),
+        ("New …", "new", ""),
         ("Open a file …", "open", "Ctrl+O"),
         None,
         ("Save to the library", "save", "Ctrl+S"),
         ("Save as …", "save-as", "Ctrl+Shift+S"),
+        None,
+        ("Export …", "export", "Ctrl+E"),
     ),
     "Edit": (
         ("Undo", "undo", "Ctrl+Z"),
@@ -124,6 +126,16 @@ MENUS: dict[str, tuple[tuple[str, str, str] | None, ...]] = {
         ("Copy the recipe", "copy", ""),
         ("Paste a recipe", "paste", ""),
         ("Duplicate", "duplicate", ""),
+    ),
+    "Pattern": (
+        ("Mirror left and right", "mirror-across", ""),
+        ("Mirror top and bottom", "mirror-down", ""),
+        ("Turn by a quarter", "turn", ""),
+        ("Scale …", "scale", ""),
+        None,
+        ("Random variation", "vary", ""),
+        ("Explore variations …", "explore", "Ctrl+Shift+E"),
+        ("Reset to the paper's defaults", "reset", ""),
     ),
     "View": (
         ("True size of this screen …", "true-size", ""),

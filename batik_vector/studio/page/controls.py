@@ -12,7 +12,7 @@ from nicegui import ui
 
 from batik_vector.errors import BatikError
 from batik_vector.studio.page.fields import Row
-from batik_vector.studio.page.parts import group, icon_button, say, text, word_button
+from batik_vector.studio.page.parts import group, icon_button, say, telling, text, told, word_button
 from batik_vector.studio.parameters import Control, Group, Panel, panels
 
 if TYPE_CHECKING:
@@ -189,10 +189,15 @@ class Section:
         name.on("click", self.toggle)
         path = self.shown.path
         if self.shown.member and self._siblings > 1:
-            icon_button("arrow_upward", f"Move {self.shown.label} up", lambda: self.session.move(path, -1))
-            icon_button("arrow_downward", f"Move {self.shown.label} down", lambda: self.session.move(path, 1))
+            up, down = (telling(lambda by=by: self.session.move(path, by)) for by in (-1, 1))
+            icon_button("arrow_upward", f"Move {self.shown.label} up", up)
+            icon_button("arrow_downward", f"Move {self.shown.label} down", down)
+        if self.shown.member:
+            icon_button(
+                "content_copy", f"Copy {self.shown.label}", telling(lambda: self.session.copy_of(path))
+            )
         if self.shown.member or (self.shown.optional and self.shown.is_set and self.depth > 1):
-            icon_button("close", f"Remove {self.shown.label}", lambda: self.session.remove(path))
+            icon_button("close", f"Remove {self.shown.label}", telling(lambda: self.session.remove(path)))
 
     def _adding(self) -> None:
         offers = self.shown.offers
@@ -211,7 +216,8 @@ class Section:
 
     def _add(self, offer: Offer) -> None:
         self.controls.open.add(offer.path)
-        self.session.add(offer)
+        with told():
+            self.session.add(offer)
 
     def _more(self) -> None:
         known = self.controls.more

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
@@ -10,7 +10,9 @@ from urllib.parse import quote
 from nicegui import ui
 
 from batik_vector.errors import BatikError
-from batik_vector.studio.page.parts import group, icon_button, main_button, say, text, word_button
+from batik_vector.studio import changes
+from batik_vector.studio.page.parts import group, icon_button, main_button, say, text, told, word_button
+from batik_vector.studio.saving import NewerError
 
 if TYPE_CHECKING:
     from batik_vector.studio.page.session import Session
@@ -27,15 +29,6 @@ def dialog(title: str, classes: str = "") -> Iterator[ui.dialog]:
             icon_button("close", "Close", made.close)
         yield made
     made.open()
-
-
-@contextmanager
-def told() -> Iterator[None]:
-    """Tell what goes wrong in words."""
-    try:
-        yield
-    except BatikError as error:
-        ui.notify(str(error), type="negative", multi_line=True, close_button="Close")
 
 
 def buttons(made: ui.dialog, label: str, action: Callable[[], Any]) -> ui.button:
@@ -71,27 +64,45 @@ def begin(session: Session) -> None:
         ui.timer(0, fill, once=True)
 
 
+async def saved(session: Session, name: str, tags: Sequence[str] = (), note: str = "") -> None:
+    """Save, and tell so; where somebody else has saved meanwhile, ask what is to be done.
+
+    Raises:
+        BatikError: where it cannot be saved.
+    """
+    try:
+        ui.notify(await session.save(name, tags, note), type="positive")
+    except NewerError as error:
+        _ask_over(session, name, str(error))
+
+
+def _ask_over(session: Session, name: str, words: str) -> None:
+    with dialog("There is a newer version") as made:
+        text(words, "", "p")
+
+        async def over() -> None:
+            with told():
+                ui.notify(await session.save(name, over=True), type="positive")
+            made.close()
+
+        buttons(made, "Save over it", over)
+
+
 def save_as(session: Session) -> None:
     """Ask for a name in the library, and save."""
     with dialog("Save to the library") as made:
-        name = (
-            ui.input("Name", value=session.suggested_name()).props("outlined dense autofocus").classes("full")
-        )
-        tags = ui.input("Tags, with commas between").props("outlined dense").classes("full")
-        note = ui.textarea("Note").props("outlined dense autogrow").classes("full")
+        name = ui.input("Name", value=session.suggested_name()).props("outlined autofocus").classes("full")
+        tags = ui.input("Tags, with commas between").props("outlined").classes("full")
+        note = ui.textarea("Note").props("outlined autogrow").classes("full")
         wrong = text("", "wrong").props("role=alert")
 
         async def save() -> None:
+            tagged = [each.strip() for each in (tags.value or "").split(",") if each.strip()]
             try:
-                words = await session.save(
-                    name.value or "",
-                    [each.strip() for each in (tags.value or "").split(",") if each.strip()],
-                    note.value or "",
-                )
+                await saved(session, (name.value or "").strip(), tagged, note.value or "")
             except BatikError as error:
                 say(wrong, str(error))
                 return
-            ui.notify(words, type="positive")
             made.close()
 
         name.on("keydown.enter", save)
@@ -113,6 +124,22 @@ def paste(session: Session) -> None:
                 made.close()
 
         buttons(made, "Take it", take)
+
+
+def scale(session: Session) -> None:
+    """Ask for a factor, and scale the pattern."""
+    with dialog("Scale the pattern") as made:
+        text("Tile, placements and gaps grow together; shapes and counts stay.", "quiet", "p")
+        factor = ui.number("Factor", value=1.5, min=0.001, max=1000, step=0.1).props("outlined autofocus")
+        factor.classes("full")
+
+        def apply() -> None:
+            with told():
+                by = float(factor.value or 1)
+                session.alter(f"scaled by {by:g}", lambda draft: changes.scaled(draft, by))
+                made.close()
+
+        buttons(made, "Scale", apply)
 
 
 def true_size() -> None:

@@ -220,7 +220,8 @@ window.studio = (() => {
     if (file.size > LARGEST) return window.emitEvent("studio-refused", `${file.name} has ${(file.size / 1e6).toFixed(0)} MB: at most ${LARGEST / 1e6} MB are taken`);
     const answer = await fetch(`/studio/drop?name=${encodeURIComponent(file.name)}`, { method: "POST", body: file,
       headers: { "content-type": "application/octet-stream" } }).catch(() => null);
-    if (!answer || !answer.ok) window.emitEvent("studio-refused", answer ? await answer.text() : `${file.name} could not be sent`);
+    const said = answer ? await answer.text() : `${file.name} could not be sent`;
+    window.emitEvent(answer && answer.ok ? "studio-dropped" : "studio-refused", said);
   }
   function choose() {
     const input = Object.assign(document.createElement("input"), { type: "file", accept: ".toml,.svg,.pdf,.dxf,.hpgl,.gcode,.png" });

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 from nicegui import background_tasks, ui
 
 from batik_vector.errors import BatikError
+from batik_vector.studio.asking import View
 from batik_vector.studio.page.parts import group, icon_button, say, text, toggled, word_button
-from batik_vector.studio.views import View
 
 if TYPE_CHECKING:
     from batik_vector.studio.page.session import Session

@@ -11,7 +11,7 @@ from nicegui import ui
 from nicegui.elements.mixins.value_element import ValueElement
 
 from batik_vector.studio.offers import COLOURS
-from batik_vector.studio.page.parts import group, icon_button, say, text
+from batik_vector.studio.page.parts import group, icon_button, say, text, told
 from batik_vector.studio.rewriting import spelled
 
 if TYPE_CHECKING:
@@ -202,13 +202,15 @@ class Row:
 
     def _set(self, value: Any, merge: str = "") -> None:
         if not self._setting:
-            self.session.set_value(self.control.path, value, merge)
+            with told():
+                self.session.set_value(self.control.path, value, merge)
 
     def _reset(self) -> None:
-        self.session.set_value(self.control.path, None)
+        self._set(None)
 
     def _lock(self) -> None:
-        self.session.lock(self.control.path, not self.control.locked)
+        with told():
+            self.session.lock(self.control.path, not self.control.locked)
 
     def _quietly(self, action: Callable[[], Any]) -> None:
         self._setting = True

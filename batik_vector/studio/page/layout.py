@@ -7,12 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 from nicegui import ui
 
-from batik_vector.errors import BatikError
 from batik_vector.studio.page.commands import Commands
 from batik_vector.studio.page.controls import Controls
 from batik_vector.studio.page.display import Display
 from batik_vector.studio.page.library import LibraryPanel, VersionsPanel
-from batik_vector.studio.page.parts import group, icon_button, say, text
+from batik_vector.studio.page.parts import complain, group, icon_button, main_button, say, text, told
 from batik_vector.studio.page.recipe_text import RecipeText
 
 if TYPE_CHECKING:
@@ -62,7 +61,8 @@ class Page:
         client.on_delete(forget)
         client.on_connect(self._look_at_screen)
         ui.on("studio-pasted", self._pasted)
-        ui.on("studio-refused", lambda event: ui.notify(str(event.args), type="negative"))
+        ui.on("studio-refused", lambda event: complain(str(event.args)))
+        ui.on("studio-dropped", lambda event: ui.notify(str(event.args), type="positive"))
         self.refresh()
 
     def _bar(self) -> None:
@@ -76,6 +76,7 @@ class Page:
             self.state = text("", "chip")
         self.commands.buttons()
         icon_button("contrast", "Light or dark", self._contrast)
+        main_button("Export", self.commands.do("export"))
 
     def _left(self) -> None:
         with ui.tabs().props("align=left dense no-caps") as tabs:
@@ -110,10 +111,8 @@ class Page:
         self.display.refresh()
 
     def _pasted(self, event: Any) -> None:
-        try:
+        with told():
             self.session.paste(str(event.args))
-        except BatikError as error:
-            ui.notify(str(error), type="negative")
 
     def _open_left(self) -> None:
         self.frame.classes(toggle="open")

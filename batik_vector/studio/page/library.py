@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-import asyncio
 from typing import TYPE_CHECKING
 from urllib.parse import quote
 
 from nicegui import background_tasks, ui
 
 from batik_vector.errors import BatikError
-from batik_vector.studio.page.parts import group, say, text
+from batik_vector.studio.page.parts import group, say, telling, text, word_button
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from typing import Any
 
+    from batik_vector.library.values import Version
     from batik_vector.studio.page.session import Session
 
 CONDITION = ("<", ">", "=", "..")
@@ -60,7 +60,7 @@ class LibraryPanel:
                     self.said = text("", "quiet small").props("role=status")
             with group("scroll grow"):
                 self.shelf = group("shelf")
-        session.on_library(self.refresh)
+        ui.context.client.on_delete(session.on_library(self.refresh))
         self.refresh()
 
     def refresh(self) -> None:
@@ -90,17 +90,11 @@ class LibraryPanel:
                     hit.name,
                     label,
                     f"{label} ({hit.name})",
-                    lambda hit=hit: self._open(hit.name),
+                    telling(lambda hit=hit: self.session.open_pattern(hit.name)),
                     hit.version,
                 )
         if len(found) > SHOWN_AT_ONCE:
             say(self.said, f"{SHOWN_AT_ONCE} of {len(found)} patterns")
-
-    async def _open(self, name: str) -> None:
-        try:
-            await self.session.open_pattern(name)
-        except BatikError as error:
-            ui.notify(str(error), type="negative")
 
 
 class VersionsPanel:
@@ -113,7 +107,7 @@ class VersionsPanel:
         with group("scroll"):
             self.words = text("", "quiet small pad", "p")
             self.shelf = group("shelf")
-        session.on_library(self.refresh)
+        ui.context.client.on_delete(session.on_library(self.refresh))
 
     def shown(self, seen: bool) -> None:
         """Tell whether it is looked at."""
@@ -135,13 +129,19 @@ class VersionsPanel:
         say(self.words, "" if found else "Save the pattern to the library, and its versions are kept here.")
         self.shelf.clear()
         with self.shelf:
-            for each in found:
-                said = f"{each.name}@{each.number}, saved {each.saved[:16].replace('T', ' ')}"
-                with card(
-                    each.name, f"Version {each.number}", said, lambda each=each: self._open(each), each.number
-                ):
-                    text(each.saved[:16].replace("T", " "), "name quiet")
+            for number, each in enumerate(found):
+                self._card(each, newest=number == 0)
 
-    async def _open(self, version: Any) -> None:
-        await asyncio.sleep(0)
-        await self.session.open_pattern(f"{version.name}@{version.number}")
+    def _card(self, version: Version, *, newest: bool) -> None:
+        when = version.saved[:16].replace("T", " ")
+        reference = f"{version.name}@{version.number}"
+        with group("versioned"):
+            said = f"{reference}, saved {when}"
+            open_it = telling(lambda: self.session.open_pattern(reference))
+            card(version.name, f"Version {version.number}", said, open_it, version.number)
+            text(when, "quiet small")
+            if not newest:
+                word_button("Restore", telling(lambda: self._restore(reference)), icon="history")
+
+    async def _restore(self, reference: str) -> None:
+        ui.notify(await self.session.restore(reference), type="positive")

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import inspect
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any
 
 from nicegui import ui
+
+from batik_vector.errors import BatikError
 
 
 def icon_button(icon: str, label: str, action: Callable[..., Any], *, tip: str = "") -> ui.button:
@@ -32,6 +36,32 @@ def word_button(
 def main_button(label: str, action: Callable[..., Any]) -> ui.button:
     """Return the button for what one most likely wants."""
     return ui.button(label, on_click=action, color=None).props("unelevated no-caps").classes("accent")
+
+
+@contextmanager
+def told() -> Iterator[None]:
+    """Tell in words what goes wrong, and go on."""
+    try:
+        yield
+    except BatikError as error:
+        complain(str(error))
+
+
+def complain(words: str) -> None:
+    """Tell what is wrong; it stays until it is closed."""
+    ui.notify(words, type="negative", multi_line=True, close_button="Close", timeout=12000)
+
+
+def telling(action: Callable[..., Any]) -> Callable[..., Any]:
+    """Return an action that tells in words what goes wrong; it may be one that takes a while."""
+
+    async def done(*_: Any) -> None:
+        with told():
+            result = action()
+            if inspect.isawaitable(result):
+                await result
+
+    return done
 
 
 def group(classes: str, tag: str = "div") -> ui.element:

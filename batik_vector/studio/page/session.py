@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import asyncio
 import logging
 from collections.abc import Callable, Sequence
-from pathlib import Path
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from batik_vector.errors import BatikError, Fault, RecipeError
-from batik_vector.studio.drafts import Draft
-from batik_vector.studio.history import History
+from batik_vector.errors import Fault
+from batik_vector.studio import changes, drops
+from batik_vector.studio.aside import Aside
+from batik_vector.studio.drafts import Draft, parsed
+from batik_vector.studio.journal import Desk
 from batik_vector.studio.pictures import Picture, Pictures
+from batik_vector.studio.saving import Saving, fingerprint, save
 from batik_vector.studio.shelf import Shelf
 
 if TYPE_CHECKING:
@@ -25,21 +29,20 @@ class Session:
     """What is open, and everyone who is to be told when that changes.
 
     Args:
-        draft: what is worked at.
+        desk: the draft that is worked at, with its history.
         library: the file of the library; the user's own where none is given.
-        folder: where the studio keeps what must outlive it.
-        pattern: the name that the draft has in the library, with ``@`` and its version.
     """
 
-    def __init__(self, draft: Draft, *, library: str | None = None, folder: Path, pattern: str = "") -> None:
-        self.history = History(draft)
-        self.folder = folder
-        self.shelf = Shelf(library)
+    def __init__(self, desk: Desk, *, library: str | None = None) -> None:
+        self.desk = desk
+        self.library = library
+        self.aside = Aside()
+        self.shelf = Shelf(self.aside, library)
         self.images = Pictures()
-        self.reference = pattern
-        self._saved = draft.whole
         self.pictures: dict[int, bytes] = {}
+        self.files: dict[int, tuple[str, bytes]] = {}
         self._number = 0
+        self._seed = 0
         self._compiling: tuple[Draft, tuple[Fault, ...]] | None = None
         self._listeners: list[Callable[[], None]] = []
         self._library_listeners: list[Callable[[], None]] = []
@@ -47,7 +50,7 @@ class Session:
     @property
     def draft(self) -> Draft:
         """What is worked at."""
-        return self.history.now
+        return self.desk.draft
 
     @property
     def text(self) -> str:
@@ -62,9 +65,14 @@ class Session:
     @property
     def faults(self) -> tuple[Fault, ...]:
         """What is wrong with it: what reading it tells, or else what compiling it told."""
-        if self.draft.faults or self._compiling is None or self._compiling[0] is not self.draft:
+        if self.draft.faults or self._compiling is None or self._compiling[0] != self.draft:
             return self.draft.faults
         return self._compiling[1]
+
+    @property
+    def reference(self) -> str:
+        """Its name in the library with ``@`` and its version, or nothing."""
+        return self._noted()[0]
 
     @property
     def pattern(self) -> str:
@@ -78,15 +86,26 @@ class Session:
 
     @property
     def is_saved(self) -> bool:
-        """Whether the library, or a file, has it as it is."""
-        return self._saved == self.draft.whole
+        """Whether the library has it as it is."""
+        return self._noted()[1] == fingerprint(self.draft.whole)
 
     @property
     def state(self) -> str:
         """Where it stands, in words."""
         if not self.reference:
             return "not in the library yet"
-        return self.reference if self.is_saved else f"changed since {self.reference}"
+        return self.reference if self.is_saved else f"{self.reference}, changed"
+
+    def _noted(self) -> tuple[str, str]:
+        # By what it is called, for steps back may lead to another pattern.
+        noted = self.desk.notes.get("saved", {}).get(self.draft.stem, ("", ""))
+        return str(noted[0]), str(noted[1])
+
+    def _note(self, stem: str, reference: str, whole: str) -> None:
+        known = {key: value for key, value in self.desk.notes.get("saved", {}).items() if key != stem}
+        if reference:
+            known[stem] = [reference, fingerprint(whole)]
+        self.desk.note(saved=known)
 
     # Everyone who looks.
 
@@ -106,51 +125,42 @@ class Session:
     def change(self, draft: Draft, label: str, merge: str = "") -> None:
         """Go on with another draft; the one before can be had back."""
         if draft != self.draft:
-            self.history.did(draft, label, merge)
+            self.desk.did(draft, label, merge)
             self._tell()
 
     def settle(self) -> None:
         """End a step of many small changes: the slider is let go."""
-        self.history.settle()
+        self.desk.settle()
 
     def set_value(self, path: str, value: Any, merge: str = "") -> None:
-        """Set a value of the recipe, or reset it where it is None."""
+        """Set a value of the recipe, or reset it where it is None.
+
+        Raises:
+            BatikError: where it cannot be set; nothing is changed then.
+        """
         label = f"{path.rpartition('.')[2]} {'reset' if value is None else 'set'}"
-        self._try(lambda: self.draft.with_value(path, value), label, merge)
+        self.change(self.draft.with_value(path, value), label, merge)
 
     def lock(self, path: str, locked: bool) -> None:
         """Lock a value, or set it free."""
-        self._try(lambda: self.draft.locking(path, locked), f"{path} {'locked' if locked else 'set free'}")
+        self.change(self.draft.locking(path, locked), f"{path} {'locked' if locked else 'set free'}")
 
     def add(self, offer: Offer) -> None:
         """Add what is offered."""
-        if offer.single:
-            self._try(lambda: self.draft.with_value(offer.path, offer.value), f"{offer.label} added")
-        else:
-            self._try(lambda: self.draft.inserted(offer.path, offer.value), f"{offer.label} added")
+        add = self.draft.with_value if offer.single else self.draft.inserted
+        self.alter(f"{offer.label} added", lambda _: add(offer.path, offer.value))
 
     def remove(self, path: str) -> None:
         """Take a member of a list out, or a table."""
-        self._try(lambda: self.draft.removed(path), f"{path} removed")
+        self.alter(f"{path} removed", lambda draft: draft.removed(path))
 
     def move(self, path: str, by: int) -> None:
         """Move a member up or down among its like."""
-        from batik_vector.studio.drafts import parsed
-
         where = parsed(path)
-        around = self.draft.value(where[:-1])
+        around = self.draft.value(where[:-1]) if len(where) > 1 else self.draft.tables
         place = list(around).index(where[-1]) if isinstance(around, dict) else int(where[-1])
         if 0 <= place + by < len(around):
-            self._try(lambda: self.draft.moved(where, place + by), f"{path} moved")
-
-    def _try(self, change: Callable[[], Draft], label: str, merge: str = "") -> None:
-        """Make a change; what cannot be made is told and changes nothing."""
-        try:
-            self.change(change(), label, merge)
-        except BatikError as error:
-            from nicegui import ui
-
-            ui.notify(str(error), type="negative", multi_line=True, close_button="Close")
+            self.alter(f"{path} moved", lambda draft: draft.moved(where, place + by))
 
     def type(self, text: str) -> None:
         """Take what was typed into the recipe's text, whatever it says."""
@@ -159,24 +169,52 @@ class Session:
     @property
     def can_undo(self) -> bool:
         """Whether a step can be taken back."""
-        return self.history.can_undo
+        return self.desk.history.can_undo
 
     @property
     def can_redo(self) -> bool:
         """Whether a step can be done again."""
-        return self.history.can_redo
+        return self.desk.history.can_redo
 
     def undo(self) -> None:
         """Take a step back."""
-        if self.history.can_undo:
-            self.history.undo()
+        if self.can_undo:
+            self.desk.undo()
             self._tell()
 
     def redo(self) -> None:
         """Do a step again."""
-        if self.history.can_redo:
-            self.history.redo()
+        if self.can_redo:
+            self.desk.redo()
             self._tell()
+
+    # The menu.
+
+    def alter(self, label: str, change: Callable[[Draft], Draft]) -> None:
+        """Change the draft, as a step of its own.
+
+        Raises:
+            BatikError: where that cannot be done; nothing is changed then.
+        """
+        self.desk.settle()
+        self.change(change(self.draft), label)
+        self.desk.settle()
+
+    def vary(self) -> None:
+        """Go on with a random variation: another one each time, what is locked stays."""
+        self._seed += 1
+        self.alter(f"variation {self._seed}", lambda draft: changes.varied(draft, self._seed))
+
+    def copy_of(self, path: str) -> None:
+        """Put a member of a list, a motif or an ink in twice."""
+        self.alter(f"{path} copied", lambda draft: changes.duplicated(draft, path)[0])
+
+    def duplicate(self) -> None:
+        """Go on with a copy that the library does not know."""
+        titled = self.draft.with_value("title", f"{self.title} copy")
+        copy = replace(titled, stem=f"{self.draft.stem}-copy")
+        self._note(copy.stem, "", "")
+        self.alter("duplicated", lambda _: copy)
 
     # What is opened, and saved.
 
@@ -189,47 +227,59 @@ class Session:
 
     def take(self, draft: Draft, reference: str = "") -> None:
         """Open a draft; what was open before can be had back."""
-        self.history.settle()
-        self.reference, self._saved = reference, draft.whole if reference else ""
+        self._note(draft.stem, reference, draft.whole)
         if draft == self.draft:
             self._tell()
-        self.change(draft, f"{draft.title} opened")
+        self.alter(f"{draft.title} opened", lambda _: draft)
 
     def paste(self, text: str) -> None:
-        """Open a recipe that is pasted.
+        """Put in what is pasted: a whole recipe takes the draft's place, motifs and inks join it.
 
         Raises:
             RecipeError: where it is none.
         """
-        draft = Draft.of_text(text)
-        if not draft.tables:
-            raise RecipeError("there is no recipe in what was pasted")
-        self.take(draft)
+        self.alter("pasted", lambda draft: changes.pasted(draft, text)[0])
 
-    def duplicate(self) -> None:
-        """Go on with a copy that the library does not know."""
-        title = f"{self.title} copy"
-        self.reference, self._saved = "", ""
-        self._try(lambda: self.draft.with_value("title", title), "duplicated")
+    async def drop(self, name: str, data: bytes) -> str:
+        """Take a file in that was dropped; return in words what came of it.
+
+        Raises:
+            BatikError: saying what about the file is wrong.
+        """
+        draft, words = await self.aside.run(drops.PATIENCE, drops.taken_in, self.draft, name, data)
+        self.alter(words, lambda _: draft)
+        return words
 
     def suggested_name(self) -> str:
         """Return a name to save under."""
-        return self.pattern.rpartition("/")[2] if self.pattern else self.draft.stem
+        return self.pattern if self.pattern and not self.is_included else self.draft.stem
 
-    async def save(self, name: str, tags: Sequence[str] = (), note: str = "") -> str:
+    async def save(self, name: str, tags: Sequence[str] = (), note: str = "", *, over: bool = False) -> str:
         """Save to the library; return in words what came of it.
 
         Raises:
+            NewerError: where somebody else has saved a newer version meanwhile.
             BatikError: where it does not compile, or the library does not take it.
         """
         draft = self.draft
-        saved = await self.shelf.save(name, draft.recipe, tags, note)
-        self.reference, self._saved = f"{saved.name}@{saved.number}", draft.whole
+        known, _, number = self.reference.partition("@")
+        base = int(number) if known == name and number else 0
+        wish = Saving(name, base, self.library or "", tuple(tags), note, over)
+        saved, version, fresh = await asyncio.to_thread(save, draft, wish)
+        self._note(draft.stem, f"{saved}@{version}", draft.whole)
         self._tell()
         _call(self._library_listeners)
-        return f"Saved as {self.reference}" if saved.fresh else f"{self.reference} says the same already"
+        return f"Saved as {saved}@{version}" if fresh else f"{saved}@{version} says the same already"
 
-    # Pictures.
+    async def restore(self, reference: str) -> str:
+        """Make an old version the newest, and open it; return in words what came of it."""
+        saved = await self.shelf.restore(reference)
+        await self.open_pattern(f"{saved.name}@{saved.number}")
+        _call(self._library_listeners)
+        now = f"{saved.name}@{saved.number}"
+        return f"{reference} is {now} now" if saved.fresh else f"{reference} is the newest"
+
+    # Pictures and files.
 
     def compiled(self, picture: Picture) -> None:
         """Take note of what compiling a draft told."""
@@ -239,13 +289,20 @@ class Session:
         """Keep a picture for browsers to fetch; return its number."""
         self._number += 1
         self.pictures[self._number] = svg
-        self.pictures.pop(self._number - KEPT, None)
+        self.pictures.pop(next(iter(self.pictures)) if len(self.pictures) > KEPT else 0, None)
+        return self._number
+
+    def keep_file(self, name: str, data: bytes) -> int:
+        """Keep a file for the browser to fetch; return its number."""
+        self._number += 1
+        self.files = dict(list(self.files.items())[-3:]) | {self._number: (name, data)}
         return self._number
 
     def close(self) -> None:
-        """End what works beside the studio."""
+        """End what works beside the studio; what is open stays kept."""
         self.images.close()
-        self.shelf.close()
+        self.aside.close()
+        self.desk.close()
 
 
 def _added(listeners: list[Callable[[], None]], callback: Callable[[], None]) -> Callable[[], None]:

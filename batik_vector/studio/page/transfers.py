@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
+from urllib.parse import quote
 
 from starlette.requests import Request
 from starlette.responses import Response
@@ -34,5 +35,21 @@ def add_routes(app: FastAPI, session: Session) -> None:
         # A version never changes.
         return Response(svg, media_type="image/svg+xml", headers={"cache-control": "max-age=86400"})
 
+    async def drop(request: Request) -> Response:
+        try:
+            words = await session.drop(request.query_params.get("name", ""), await request.body())
+        except BatikError as error:
+            return Response(str(error), 422, media_type="text/plain")
+        return Response(words, media_type="text/plain")
+
+    async def download(request: Request) -> Response:
+        name, data = session.files.get(request.path_params["number"], ("", b""))
+        if not name:
+            return Response("gone\n", 404)
+        headers = NOT_KEPT | {"content-disposition": f"attachment; filename*=UTF-8''{quote(name)}"}
+        return Response(data, media_type="application/octet-stream", headers=headers)
+
+    app.add_route("/studio/drop", drop, methods=["POST"])
+    app.add_route("/studio/download/{number:int}", download)
     app.add_route("/studio/picture/{number:int}", picture)
     app.add_route("/studio/thumbnail", thumbnail)

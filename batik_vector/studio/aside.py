@@ -1,0 +1,61 @@
+"""A process beside the studio for what may take long or crash: small pictures, and files from outside.
+
+What is asked runs there, one thing after the other, and has a time limit. A process that dies, or is past its
+limit, costs what it was at, and is made again.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import multiprocessing
+import signal
+from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from typing import ParamSpec, TypeVar
+
+from batik_vector.errors import BatikError
+
+P = ParamSpec("P")
+T = TypeVar("T")
+
+
+class Aside:
+    """One process, started when it is first needed."""
+
+    def __init__(self) -> None:
+        self._pool: ProcessPoolExecutor | None = None
+        self._turn = asyncio.Lock()
+
+    async def run(self, patience: float, function: Callable[P, T], *args: P.args, **kwargs: P.kwargs) -> T:
+        """Return what a function of a module returns there.
+
+        Args:
+            patience: seconds that it may take.
+            function: with arguments that can be sent.
+
+        Raises:
+            BatikError: where it takes longer, or the process dies, or what the function raises.
+        """
+        async with self._turn:
+            if self._pool is None:
+                self._pool = ProcessPoolExecutor(
+                    1, multiprocessing.get_context("spawn"), signal.signal, (signal.SIGINT, signal.SIG_IGN)
+                )
+            work = asyncio.wrap_future(self._pool.submit(function, *args, **kwargs))
+            try:
+                return await asyncio.wait_for(work, patience)
+            except TimeoutError as error:
+                self.close()
+                raise BatikError(f"took longer than {patience:g} s and was stopped") from error
+            except BrokenProcessPool as error:
+                self.close()
+                raise BatikError("could not be read: the process that read it ended") from error
+
+    def close(self) -> None:
+        """End the process, whatever it is at."""
+        pool, self._pool = self._pool, None
+        if pool is not None:
+            for process in list((pool._processes or {}).values()):
+                process.kill()
+            pool.shutdown(wait=False, cancel_futures=True)
