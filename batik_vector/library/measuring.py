@@ -73,6 +73,10 @@ _PICTURE = SvgOptions(profile=Profile.COMPACT, order=False)
 
 def _of_tile(tile: Artwork, recipe: Recipe) -> dict[str, Any]:
     found = analyse(tile)
+    # Known it is by its largest flower, but for an ornament that stands among more flowers of another kind
+    # which take more room: a whirl in the middle of a circle of them.
+    many = [each for each in found.others if each.flowers > found.flowers]
+    told = max((found, *many), key=lambda each: each.flowers * (each.reach or 0.0) ** 2)
     features: dict[str, Any] = {
         "width": tile.cell.width,
         "height": tile.cell.height,
@@ -81,20 +85,20 @@ def _of_tile(tile: Artwork, recipe: Recipe) -> dict[str, Any]:
         "vertices": tile.vertex_count,
         "marks": found.marks,
         "repeat": recipe.tiling.repeat,
-        "elements": found.elements,
-        "relation": found.relation,
-        "symmetry": found.symmetry.order,
-        "kind": found.symmetry.kind,
+        "elements": told.elements,
+        "relation": told.relation,
+        "symmetry": told.symmetry.order,
+        "kind": told.symmetry.kind,
         "nodes": found.nodes,
-        "row": str(found),
+        "row": str(told),
     }
     if found.judged:
         features |= {
-            "layers": len(found.layers),
-            "shape": found.row["petal"],
-            "petals": max(found.layers, key=lambda layer: layer.outer).petals if found.layers else 0,
-            "pistils": round(max(found.pistils, default=0.0), 4),
-            "flowers": found.flowers,
+            "layers": len(told.layers),
+            "shape": told.row["petal"],
+            "petals": max(told.layers, key=lambda layer: layer.outer).petals if told.layers else 0,
+            "pistils": round(max(told.pistils, default=0.0), 4),
+            "flowers": told.flowers,
         }
     if found.dimension is not None:
         features["dimension"] = round(found.dimension.dimension, 4)

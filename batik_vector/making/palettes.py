@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from batik_vector.errors import Fault, RecipeError, unknown_name
+from batik_vector.errors import RecipeError, unknown_name
 from batik_vector.making.variants import Axis
 from batik_vector.recipe.drawing import Svg
-from batik_vector.recipe.model import Recipe
+from batik_vector.recipe.model import InkSpec, Recipe
 
 PALETTES: Mapping[str, tuple[str, ...]] = {
     "kelengan": ("#f4efe2", "#9fb9d8", "#5a7fb5", "#1d2f5f", "#111a38"),
@@ -39,15 +39,28 @@ def recoloured(recipe: Recipe, palette: str) -> tuple[str, ...]:
     """Return what is set in a recipe so that it has the colours of a palette, as ``KEY=VALUE``.
 
     What is light stays light: the recipe's colours take those of the palette in the order of their lightness,
-    spread over its whole range; equal colours stay equal.
+    spread over its whole range; equal colours stay equal. Drawings that keep their colours find their inks by
+    them as before.
     """
-    keys = {"cloth.colour": recipe.cloth.colour}
-    keys |= {f"ink.{_quoted(name)}.colour": ink.colour for name, ink in recipe.ink.items()}
-    ranked = sorted(set(keys.values()), key=lambda colour: (-lightness(colour), colour))
+    old = [recipe.cloth.colour, *(ink.colour for ink in recipe.ink.values())]
+    ranked = sorted(set(old), key=lambda colour: (-lightness(colour), colour))
     colours = PALETTES[palette]
     last = max(len(ranked) - 1, 1)
     taken = {colour: colours[round(place * (len(colours) - 1) / last)] for place, colour in enumerate(ranked)}
-    return tuple(f'{key}="{taken[colour]}"' for key, colour in keys.items())
+    changes = [f'cloth.colour="{taken[recipe.cloth.colour]}"']
+    kept = {
+        colour for motif in recipe.motif.values() if isinstance(motif, Svg) for colour in motif.colours_kept()
+    }
+    for name, ink in recipe.ink.items():
+        key = f"ink.{_quoted(name)}"
+        if name in kept and ink == InkSpec(colour=name):
+            # The recipe says nothing of it: it was made of a colour in a drawing, and goes by that.
+            changes.append(f'{key}={{colour="{taken[ink.colour]}"}}')
+            continue
+        changes.append(f'{key}.colour="{taken[ink.colour]}"')
+        if ink.drawn is None and ink.colour in kept and name != ink.colour:
+            changes.append(f'{key}.drawn="{ink.colour}"')
+    return tuple(changes)
 
 
 def _quoted(name: str) -> str:
@@ -60,13 +73,8 @@ def palette_axis(recipe: Recipe, names: Sequence[str]) -> Axis:
     """Return the axis that varies the palette.
 
     Raises:
-        RecipeError: where a name is none ("all" stands for all of them), or a motif keeps colours of its own.
+        RecipeError: where a name is none ("all" stands for all of them).
     """
-    for name, motif in recipe.motif.items():
-        # Its marks find their inks by colour.
-        if isinstance(motif, Svg) and motif.colours:
-            words = "keeps the colours of its drawing: expected elements that name their inks"
-            raise RecipeError([Fault(words, f"motif.{_quoted(name)}")])
     wanted = list(PALETTES) if "all" in names else list(dict.fromkeys(names))
     for name in wanted:
         if name not in PALETTES:

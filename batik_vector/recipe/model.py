@@ -35,6 +35,9 @@ class InkSpec:
     baths: Annotated[
         tuple[str, ...] | None, Says("the baths that cloth of this colour sees; [] for what stays undyed")
     ] = None
+    drawn: Annotated[
+        Colour | None, Says("colour that is this ink in drawings which keep theirs; its own when left out")
+    ] = None
 
     def __post_init__(self) -> None:
         check(self)
@@ -106,7 +109,8 @@ class Recipe:
         if not colours:
             return
         written = {} if self.ink == _one_ink() else self.ink
-        known = {spec.colour: name for name, spec in reversed(written.items())}
+        known = {spec.colour: name for name, spec in reversed(written.items()) if spec.drawn is None}
+        known |= {spec.drawn: name for name, spec in reversed(written.items()) if spec.drawn is not None}
         fresh = {colour: InkSpec(colour=colour) for colour in colours if colour not in {**known, **written}}
         inks = tuple((colour, known.get(colour, colour)) for colour in colours)
         motifs = {

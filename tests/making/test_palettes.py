@@ -6,8 +6,9 @@ import itertools
 from pathlib import Path
 
 import pytest
+import shapely
 
-from batik_vector import load_recipe
+from batik_vector import compile_recipe, load_recipe, read_recipe
 from batik_vector.errors import RecipeError
 from batik_vector.making.palettes import PALETTES, lightness, palette_axis, recoloured
 from batik_vector.making.variants import parse_axis, variants
@@ -47,5 +48,58 @@ def test_an_axis_of_palettes_names_its_variants() -> None:
     assert len(palette_axis(recipe, ["all"]).values) == len(PALETTES)
     with pytest.raises(RecipeError, match='unknown palette "sogann": did you mean "sogan"'):
         palette_axis(recipe, ["sogann"])
-    with pytest.raises(RecipeError, match="keeps the colours of its drawing"):
-        palette_axis(load_recipe(SAMPLES / "lasem-bird.toml"), ["sogan"])
+
+
+DRAWN = """
+[ink.leaf]
+colour = "#00ff00"
+width = "0.3 mm"
+[motif.own]
+kind = "svg"
+file = "own.svg"
+colours = true
+dress = [{ colour = "#0000ff", ink = "leaf" }]
+[[place]]
+motif = "own"
+width = "30 mm"
+[tile]
+size = ["40 mm", "40 mm"]
+"""
+OWN = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 30 30" width="30mm" height="30mm">
+<path d="M0 0h8v8h-8z" fill="#00ff00"/><path d="M10 0h8v8h-8z" fill="#ffee00"/>
+<path d="M20 0h8v8h-8z" fill="#ffef00"/><path d="M0 10h8v8h-8z" fill="#111111"/>
+<path d="M10 10h8v8h-8z" fill="#0000ff"/></svg>"""
+
+
+@pytest.mark.parametrize("ink", ['[ink.leaf]\ncolour = "#00ff00"\nwidth = "0.3 mm"', '[ink."#00ff00"]', ""])
+@pytest.mark.parametrize("palette", ["sogan", "lasem"])
+def test_drawings_that_keep_their_colours_take_those_of_a_palette(
+    tmp_path: Path, ink: str, palette: str
+) -> None:
+    (tmp_path / "own.svg").write_text(OWN)
+    text = DRAWN.replace('[ink.leaf]\ncolour = "#00ff00"\nwidth = "0.3 mm"', ink)
+    text = text if "leaf]" in ink else text.replace('dress = [{ colour = "#0000ff", ink = "leaf" }]', "")
+    before = read_recipe(text, folder=tmp_path)
+    after = read_recipe(text, overrides=recoloured(before, palette), folder=tmp_path)
+    # Each ink is what it was, in its place, and draws the same marks; none is left in its old colour.
+    assert [*after.ink] == [*before.ink]
+    assert [each.width for each in after.ink.values()] == [each.width for each in before.ink.values()]
+    assert {each.colour for each in after.ink.values()} <= set(PALETTES[palette])
+    old, new = compile_recipe(before), compile_recipe(after)
+    assert [layer.ink.name for layer in old.layers] == [layer.ink.name for layer in new.layers]
+    for one, other in zip(old.layers, new.layers, strict=True):
+        assert shapely.equals_identical(one.areas, other.areas).all()
+    # A palette on a palette is the second.
+    again = recoloured(before, "ijo"), recoloured(after, "ijo")
+    texts = text, after.source
+    first, second = (
+        read_recipe(each, overrides=changes, folder=tmp_path)
+        for each, changes in zip(texts, again, strict=True)
+    )
+    assert [each.colour for each in first.ink.values()] == [each.colour for each in second.ink.values()]
+
+
+def test_every_palette_suits_a_sample_that_keeps_the_colours_of_its_drawing() -> None:
+    recipe = load_recipe(SAMPLES / "lasem-bird.toml")
+    for changes in palette_axis(recipe, ["all"]).changes:
+        assert [*load_recipe(SAMPLES / "lasem-bird.toml", changes).ink] == ["cotton", "indigo"]
