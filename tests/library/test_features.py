@@ -164,7 +164,7 @@ TABLE_2 = {
     5: ROW.format(2, 8, "= 1", "curved", "= 8", ">= 3"),
     6: ROW.format(2, 1, ">= 3", "curved", ">= 10", "= 0") + ", kind = none",
 }
-"""The paper's rows as they are asked for: "multi" is three and more, of petals ten, and none has no mirror."""
+"""The paper's rows as they are asked for: multi is three and more, of petals ten; none has no mirror."""
 
 
 @pytest.mark.parametrize("number", TABLE_2)
