@@ -149,7 +149,8 @@ def duplicated(draft: Draft, path: Where) -> tuple[Draft, str]:
     around = draft.value(where[:-1])
     fresh = (*where[:-1], free_name(str(where[-1]), around))
     place = list(around).index(where[-1]) + 1
-    return draft.inserted(fresh, value, place), dotted(fresh)
+    written = _retitled(draft.copied(where), where, str(fresh[-1]))
+    return draft.inserted(fresh, value, place, written), dotted(fresh)
 
 
 def varied(draft: Draft, seed: int, reach: float = 0.5) -> Draft:

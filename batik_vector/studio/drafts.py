@@ -17,6 +17,7 @@ from dataclasses import replace
 from typing import Any, TypeAlias
 
 from batik_vector.errors import BatikError, Fault, RecipeError
+from batik_vector.fields import OneOf
 from batik_vector.recipe.loading import EMPTY, read_recipe
 from batik_vector.recipe.model import Recipe
 from batik_vector.recipe.reading.field_types import Hint
@@ -153,7 +154,7 @@ class Draft:
         around = place_at(self.tables, where[:-1])
         one_of = around.hint.one_of if around is not None else None
         if around is not None and one_of is not None and where[-1] == one_of.tag and isinstance(value, str):
-            return self._with_kind(where, str(one_of.tag), value, known_keys(around.hint, value))
+            return self._with_kind(where, one_of, value, known_keys(around.hint, value))
         return self._rewritten(where, lambda: self._set(where, value))
 
     def with_values(self, values: Mapping[Where, Any] | Sequence[tuple[Where, Any]]) -> Draft:
@@ -163,9 +164,9 @@ class Draft:
             draft = draft.with_value(path, value)
         return draft
 
-    def _with_kind(self, where: Path, tag: str, kind: str, known: set[str]) -> Draft:
+    def _with_kind(self, where: Path, one_of: OneOf, kind: str, known: set[str]) -> Draft:
         """Return the draft with a table of another kind; what that does not know of the old one goes."""
-        table = where[:-1]
+        table, tag = where[:-1], one_of.tag
         old = self.value(table) or {}
         draft = self._rewritten(where, lambda: self._set(where, kind))
         if not isinstance(old, dict) or not known:
@@ -173,7 +174,7 @@ class Draft:
         for key in old:
             if key != tag and key not in known:
                 draft = draft.without((*table, key))
-        for key, value in kinded(kind, tag).items():
+        for key, value in kinded(kind, one_of).items():
             if draft.value((*table, key)) is None:
                 draft = draft.with_value((*table, key), value)
         # A key of one name may be of two kinds.
@@ -244,7 +245,7 @@ class Draft:
             # The one ink that there was without a word.
             draft = draft.with_value(("ink", UNSAID), {})
         text, inks = draft.text, draft.tables.get("ink")
-        draft = draft._rewritten(where, lambda: rewriting.with_value(text, where, value))
+        draft = draft._rewritten(where, lambda: rewriting.with_table(text, where, value, written))
         if index is not None:
             draft = draft.moved(where, index)
         alone = where[0] == "ink" and isinstance(inks, dict) and len(inks) == 1

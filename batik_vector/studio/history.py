@@ -137,6 +137,7 @@ class History:
 
     def redo(self) -> Draft:
         """Do a step again that was taken back, where there is one; return the draft."""
+        self.settle()
         if self._undone:
             self._done.append(self._undone.pop())
             step = self._done[-1]

@@ -186,16 +186,14 @@ class Desk:
 
     def undo(self) -> Draft:
         """Take a step back; see :meth:`History.undo`."""
-        if self.history.can_undo:
-            self.history.undo()
-            self._add({"undo": True})
+        self.history.undo()
+        self._add({"undo": True})
         return self.draft
 
     def redo(self) -> Draft:
         """Do a step again; see :meth:`History.redo`."""
-        if self.history.can_redo:
-            self.history.redo()
-            self._add({"redo": True})
+        self.history.redo()
+        self._add({"redo": True})
         return self.draft
 
     def settle(self) -> None:

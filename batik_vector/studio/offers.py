@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from batik_vector.fields import OneOf
 from batik_vector.recipe.reading.field_types import Hint, members
 from batik_vector.recipe.references import Path, dotted
 from batik_vector.units import format_mm, parse_length
@@ -30,10 +31,10 @@ class Offer:
 
 
 NEEDED: Mapping[str, Mapping[str, Any]] = {
-    "rosette": {"elements": [{"curve": {"kind": "circle", "radius": 0.3}, "count": 8, "radius": 1.0}]},
-    "path": {"d": "M0 -1 C0.8 -0.4 0.8 0.4 0 1 C-0.8 0.4 -0.8 -0.4 0 -1 Z"},
-    "svg": {"file": "drawing.svg"},
-    "lsystem": {
+    "motif rosette": {"elements": [{"curve": {"kind": "circle", "radius": 0.3}, "count": 8, "radius": 1.0}]},
+    "motif path": {"d": "M0 -1 C0.8 -0.4 0.8 0.4 0 1 C-0.8 0.4 -0.8 -0.4 0 -1 Z"},
+    "motif svg": {"file": "drawing.svg"},
+    "motif lsystem": {
         "axiom": "F",
         "rules": ["F -> F[+F]F[-F]F"],
         "level": 2,
@@ -41,11 +42,12 @@ NEEDED: Mapping[str, Mapping[str, Any]] = {
         "heading": 90,
         "width": 0.3,
     },
-    "places": {"at": [[0, 0]]},
-    "points": {"points": [[1, 0], [0, 0.5], [-1, 0], [0, -0.5]], "smooth": True},
-    "ifs": {"maps": [{"turn": 0}, {"turn": 90}]},
+    "layout places": {"at": [[0, 0]]},
+    "curve points": {"points": [[1, 0], [0, 0.5], [-1, 0], [0, -0.5]], "smooth": True},
+    "curve path": {"d": "M0 -1 C0.8 -0.4 0.8 0.4 0 1 C-0.8 0.4 -0.8 -0.4 0 -1 Z"},
+    "layout ifs": {"maps": [{}, {"pre": {"turn": 45, "scale": 0.7}}]},
 }
-"""What kinds need besides their name, to draw something at once."""
+"""What kinds of a catalogue need besides their name, to draw something at once."""
 COLOURS = ("#1d2f5f", "#7d9cc0", "#6b3a1e", "#b5462f", "#c9974a", "#3f5b3a", "#f4efe2", "#1a1a1a")
 """Colours of fresh inks: indigo, light indigo, soga, mengkudu, yellow, green, cotton, black."""
 REPEATS = ("grid", "half-drop", "brick", "drop 1/3", "mirror")
@@ -57,7 +59,9 @@ def offers(hint: Hint, path: Path, tables: Mapping[str, Any]) -> tuple[Offer, ..
     """Return what can be added to a list, or put where an optional table is missing."""
     last = str(path[-1])
     if path == ("motif",):
-        return tuple(_named(kind, ("motif",), tables, kinded(kind)) for kind in _kinds(hint.item))
+        motifs = hint.item.one_of if hint.item is not None else None
+        assert motifs is not None
+        return tuple(_named(kind, path, tables, kinded(kind, motifs)) for kind in motifs.load())
     if path == ("ink",):
         number = len(_table(tables, "ink"))
         return (_named("ink", ("ink",), tables, {"colour": COLOURS[number % len(COLOURS)]}),)
@@ -74,20 +78,15 @@ def offers(hint: Hint, path: Path, tables: Mapping[str, Any]) -> tuple[Offer, ..
     inner = hint if single else hint.item
     assert inner is not None
     where = dotted(path)
-    if kinds := _kinds(inner):
-        tag = inner.one_of.tag if inner.one_of else "kind"
-        return tuple(Offer(kind, where, kinded(kind, tag), single) for kind in kinds)
+    if (of := inner.one_of) is not None:
+        return tuple(Offer(kind, where, kinded(kind, of), single) for kind in of.load())
     value = _least(last, tables)
     return () if value is None else (Offer(last.removesuffix("s").replace("_", " "), where, value, single),)
 
 
-def kinded(kind: str, tag: str = "kind") -> dict[str, Any]:
-    """Return the least table of a kind."""
-    return {tag: kind, **(NEEDED.get(kind, {}) if tag == "kind" else {})}
-
-
-def _kinds(hint: Hint | None) -> Sequence[str]:
-    return list(hint.one_of.load()) if hint is not None and hint.one_of is not None else ()
+def kinded(kind: str, one_of: OneOf) -> dict[str, Any]:
+    """Return the least table of a kind of a catalogue."""
+    return {one_of.tag: kind, **NEEDED.get(f"{one_of.what} {kind}", {})}
 
 
 def _named(label: str, path: Path, tables: Mapping[str, Any], value: dict[str, Any]) -> Offer:
@@ -141,7 +140,7 @@ def _least(key: str, tables: Mapping[str, Any]) -> Any:
         "rails": {"at": "4 mm", "width": "2 mm", **inked},
         "elements": {"curve": {"kind": "circle", "radius": 0.1}, "count": 8, "radius": 1.0},
         "marks": {"symbol": "F", "curve": {"kind": "circle", "radius": 0.2}},
-        "maps": {"turn": 90},
+        "maps": {"pre": {"turn": 90}},
         "terms": {"kind": "julian"},
         "fit": {},
         "clear": {"at": [0, 0], "radius": 10},

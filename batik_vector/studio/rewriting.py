@@ -85,6 +85,25 @@ def with_value(text: str, path: Path, value: Any) -> str:
     return _first(ways, tables)
 
 
+def with_table(text: str, path: Path, value: dict[str, Any], written: str = "") -> str:
+    """Return a text with another table under a header, behind its like.
+
+    Args:
+        text: the recipe.
+        path: of the table, which is not there.
+        value: what it says.
+        written: how it is written, header and all, where that is known.
+
+    Raises:
+        CannotRewriteError: where the path leads into what is no table.
+    """
+    tables = tomllib.loads(text)
+    _known_depth(tables, path)
+    _set(tables, path, value)
+    ways = [lambda: _headed(text, path, value, written)] if written else []
+    return _first([*ways, lambda: with_value(text, path, value)], tables)
+
+
 def without(text: str, path: Path) -> str:
     """Return a text without what stands at a path.
 
@@ -291,7 +310,7 @@ def _line_in(text: str, at: int, line: str) -> str:
 # Tables with headers.
 
 
-def _headed(text: str, path: Path, value: Any) -> str:
+def _headed(text: str, path: Path, value: Any, written: str = "") -> str:
     """Return the text with a table under a header of its own, behind those of its kind."""
     if not isinstance(value, dict):
         raise CannotRewriteError("a table is expected to have a header")
@@ -300,7 +319,7 @@ def _headed(text: str, path: Path, value: Any) -> str:
     at = len(text)
     if len(path) > 1 and alike and alike[-1] + 1 < len(known.headers):
         at = _block_start(text, known.headers[alike[-1] + 1][0])
-    return _block_at(text, at, _block(path, value, False))
+    return _block_at(text, at, written or _block(path, value, False))
 
 
 def _block(path: Path, value: dict[str, Any], double: bool) -> str:

@@ -159,10 +159,12 @@ def test_a_patch_leads_there_and_back(old: str, new: str) -> None:
         assert (patch.old, patch.new) == ("", "")
 
 
-MOVES = st.lists(st.one_of(st.integers(0, 9), st.sampled_from(["undo", "redo", "settle", "drag", "lock"])))
+MOVES = st.lists(
+    st.one_of(st.integers(0, 9), st.sampled_from(["undo", "redo", "settle", "drag", "lock"])), max_size=12
+)
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=30, deadline=None)
 @given(MOVES)
 def test_undo_and_redo_are_each_others_inverse(moves: list[int | str]) -> None:
     history = History(Draft(FLOWER))

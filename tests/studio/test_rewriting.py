@@ -3,6 +3,7 @@ from __future__ import annotations
 import copy
 import re
 import tomllib
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -102,7 +103,7 @@ def test_a_value_is_set_and_all_else_stays_as_it_was_written(name: str, data: st
     path = data.draw(st.sampled_from(scalars(tables)))
     value = data.draw(st.one_of(st.integers(-9, 999), st.floats(-5, 5), st.text(max_size=5), st.booleans()))
     written = with_value(text, path, value)
-    node = tables
+    node: Any = tables
     for part in path[:-1]:
         node = node[part]
     node[path[-1]] = value
@@ -236,14 +237,15 @@ def test_however_tables_are_written_what_is_meant_is_said(text: str) -> None:
 
 
 def test_where_nothing_can_be_meant_nothing_is_written() -> None:
-    for call in (
+    calls: list[Callable[[], str]] = [
         lambda: without(SMALL, ("seed", "x")),
         lambda: without(SMALL, ("nothing",)),
         lambda: with_value(SMALL, ("place", 7, "x"), 1),
         lambda: with_value(SMALL, ("title", "x"), 1),
         lambda: moved(SMALL, ("place", 9), 0),
         lambda: inserted(SMALL, ("title",), 1),
-    ):
+    ]
+    for call in calls:
         with pytest.raises(CannotRewriteError):
             call()
     for value in (None, float("nan"), object()):
