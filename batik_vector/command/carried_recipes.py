@@ -119,9 +119,7 @@ def _strokes(page: Page) -> Artwork:
             together([each.moved(margins.left, margins.bottom) for each in pieces])
             for pieces in (page.areas(number), page.lines(number))
         )
-        layers.append(
-            Layer(plate.ink, to_polygons(areas, STEPS_PER_MM), to_polylines(strokes, STEPS_PER_MM))
-        )
+        layers.append(Layer(plate.ink, to_polygons(areas, STEPS_PER_MM), to_polylines(strokes, STEPS_PER_MM)))
     return Artwork(page.title, Cell(columns, rows), tuple(layers), page.cloth, page.tolerance)
 
 

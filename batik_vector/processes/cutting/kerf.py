@@ -10,7 +10,7 @@ import numpy as np
 import shapely
 
 from batik_vector.geometry.sampling import Geometries
-from batik_vector.processes.cutting.overlays import on_grid, united
+from batik_vector.processes.cutting.overlays import HAIR, meeting, on_grid, united
 
 MITRE = 2.0
 """How far from a corner the way may be at most, in half kerfs: beyond it the way is cut straight across."""
@@ -29,7 +29,5 @@ def compensated(regions: Geometries, kerf: int, *, inward: bool = False) -> Geom
         return regions
     distance = -kerf / 2 if inward else kerf / 2
     moved = np.asarray(shapely.buffer(regions, distance, join_style="mitre", mitre_limit=MITRE), dtype=object)
-    one, other = shapely.STRtree(moved).query(moved, predicate="intersects")
-    if (one < other).any():
-        return united(moved)
-    return on_grid(moved)
+    near = meeting(moved, HAIR)
+    return np.concatenate([on_grid(moved[~near]), united(moved[near])]) if near.any() else on_grid(moved)

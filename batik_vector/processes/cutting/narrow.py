@@ -40,8 +40,7 @@ def narrowest_part(regions: Geometries, breadth: float) -> NarrowPlace | None:
     """
     if not len(regions) or breadth <= TOUCH:
         return None
-    suspects = regions[_changes(regions, -breadth)]
-    return _least([_place(region, breadth) for region in suspects])
+    return _least(_narrowest(regions, breadth))
 
 
 def narrowest_gap(regions: Geometries, breadth: float) -> NarrowPlace | None:
@@ -49,11 +48,11 @@ def narrowest_gap(regions: Geometries, breadth: float) -> NarrowPlace | None:
     if not len(regions) or breadth <= TOUCH:
         return None
     suspects = regions[_changes(regions, breadth)]
-    found = list[NarrowPlace]()
+    around = list[Geometries]()
     for region in suspects:
         box = shapely.box(*shapely.bounds(shapely.buffer(region, breadth)).tolist())
-        around = polygonal(shapely.difference(box, region))
-        found += [_place(each, breadth) for each in around[_changes(around, -breadth)]]
+        around.append(polygonal(shapely.difference(box, region)))
+    found = _narrowest(np.concatenate(around), breadth) if around else []
     return _least([*found, *_between(regions, breadth)])
 
 
@@ -104,15 +103,24 @@ def _form(regions: Geometries, breadth: float) -> NDArray[np.int64]:
     return np.stack([np.bincount(owner, minlength=len(regions)), holes.astype(np.int64)], axis=1)
 
 
-def _place(region: shapely.Geometry, breadth: float) -> NarrowPlace:
-    """Return the narrowest place of a region that is too narrow somewhere."""
-    one = np.array([region], dtype=object)
+def _narrowest(regions: Geometries, breadth: float) -> list[NarrowPlace]:
+    """Return the narrowest place of all regions, where they are narrower than told; several as narrow.
+
+    All are halved in on at once, since only the narrowest is asked for.
+    """
+    whole = _form(regions, -TOUCH)
+    suspects = (_form(regions, -breadth) != whole).any(axis=1)
+    regions, whole = regions[suspects], whole[suspects]
     low, high = TOUCH, breadth
-    for _ in range(HALVINGS):
+    for _ in range(HALVINGS if len(regions) else 0):
         middle = (low + high) / 2
-        low, high = (low, middle) if _changes(one, -middle)[0] else (middle, high)
-    x, y = shapely.get_coordinates(_neck(region, high)).mean(axis=0).tolist()
-    return NarrowPlace(x, y, low)
+        thin = (_form(regions, -middle) != whole).any(axis=1)
+        if thin.any():
+            regions, whole, high = regions[thin], whole[thin], middle
+        else:
+            low = middle
+    necks = [shapely.get_coordinates(_neck(region, high)).mean(axis=0).tolist() for region in regions]
+    return [NarrowPlace(x, y, low) for x, y in necks]
 
 
 def _neck(region: shapely.Geometry, breadth: float) -> Geometries:

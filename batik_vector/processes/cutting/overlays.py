@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from batik_vector.geometry.regions import polygonal
 from batik_vector.geometry.sampling import Geometries
@@ -19,6 +20,19 @@ def united(areas: Geometries) -> Geometries:
     except shapely.errors.GEOSException:
         # Where rounding closes a gap, a hole may be left without a shell; off the grid none is.
         return polygonal(shapely.set_precision(shapely.union_all(areas), 1))
+
+
+def meeting(areas: Geometries, apart: float = 0.0) -> NDArray[np.bool_]:
+    """Return which polygons meet others, or are no farther than so many steps from them."""
+    near = np.zeros(len(areas), bool)
+    tree = shapely.STRtree(areas)
+    if apart:
+        one, other = tree.query(areas, predicate="dwithin", distance=apart)
+    else:
+        one, other = tree.query(areas, predicate="intersects")
+    pairs = one < other
+    near[one[pairs]] = near[other[pairs]] = True
+    return near
 
 
 def without(area: shapely.Geometry, others: Geometries) -> Geometries:

@@ -13,7 +13,7 @@ from batik_vector.geometry.outlines import Outlines, to_polygons, to_polylines
 from batik_vector.geometry.regions import FillRule, polygonal, settle
 from batik_vector.geometry.sampling import Geometries
 from batik_vector.processes.cutting.choices import LineBodies
-from batik_vector.processes.cutting.overlays import on_grid, united
+from batik_vector.processes.cutting.overlays import meeting, on_grid, united
 from batik_vector.units import STEPS_PER_MM
 
 SAG = 0.5
@@ -75,10 +75,7 @@ def welded(areas: Geometries) -> Geometries:
         return on_grid(good)
     if not shapely.is_valid(good).all():
         good = polygonal(shapely.make_valid(good, method="structure"))
-    one, other = shapely.STRtree(good).query(good, predicate="intersects")
-    meets = one < other
-    if not meets.any():
+    near = meeting(good)
+    if not near.any():
         return on_grid(good)
-    near = np.zeros(len(good), bool)
-    near[one[meets]] = near[other[meets]] = True
     return np.concatenate([on_grid(good[~near]), united(good[near])])

@@ -17,6 +17,7 @@ from batik_vector.processes.cutting.choices import Keep, Narrow
 from batik_vector.processes.cutting.faults import check_blade, check_kerf, check_tabs
 from batik_vector.processes.cutting.kerf import compensated
 from batik_vector.processes.cutting.knife import Knife, holder, shut
+from batik_vector.processes.cutting.overlays import meeting
 from batik_vector.processes.cutting.sequence import in_sequence
 from batik_vector.processes.cutting.shared import lengthened
 from batik_vector.processes.cutting.starts import begun
@@ -121,10 +122,11 @@ def _trailed(strokes: Outlines, told: Told) -> Outlines:
 
 def _left_uncut(regions: Geometries, kerf: int) -> float:
     """Return the area of the corners and gaps into which a beam does not come, in mm²."""
-    grown = shapely.union_all(shapely.buffer(regions, kerf / 2, quad_segs=ROUND))
-    left: float = (
-        shapely.area(shapely.buffer(grown, -kerf / 2, quad_segs=ROUND)) - shapely.area(regions).sum()
-    )
+    grown = np.asarray(shapely.buffer(regions, kerf / 2, quad_segs=ROUND), dtype=object)
+    near = meeting(grown)
+    grown = np.append(grown[~near], shapely.union_all(grown[near]))
+    back = shapely.area(shapely.buffer(grown, -kerf / 2, quad_segs=ROUND))
+    left = float(back.sum() - shapely.area(regions).sum())
     return round(max(left, 0.0) / STEPS_PER_MM**2, 3)
 
 
