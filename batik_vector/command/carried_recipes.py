@@ -92,15 +92,20 @@ def promised_prepared(
     Raises:
         GeometryError: where a process cannot be done.
     """
+    rest = list(processes)
+    while rest and rest[0].of_tile:
+        done = rest.pop(0).apply(tile, Machine())
+        assert isinstance(done, Artwork)
+        tile = done
     for across, up in _repeats(recipe):
         field = _field(tile, across, up)
         page: Page = field
-        for process in processes:
+        for process in rest:
             page = process.apply(page, Machine())
-        shown = _strokes(page)
+        shown = _strokes(page) if rest else field
         if np.allclose((shown.cell.width, shown.cell.height), reading.page, rtol=0, atol=SIZE_MM):
             kept = page.margins == Margins() and all(each.keeps_tile for each in processes)
-            if kept:
+            if kept and rest:
                 shown = replace(shown, cell=page.cell, borders=getattr(page, "borders", field.borders))
             return Promise(recipe, shown, _repeat(shown.cell)), kept
     return _broken(recipe, tile, reading), False

@@ -60,6 +60,33 @@ def _wax(facts: Facts) -> Iterator[str]:
         yield f"{each['plate']}: {area} in {pieces}, {each['covers']:.1%} of the cloth"
 
 
+def _stencil(facts: Facts) -> Iterator[str]:
+    for each in facts["sheets"]:
+        yield f"{each['ink']}: {_held(each, facts)}"
+        if each["dropped"]:
+            yield f"{_counted(each['dropped'], 'small island', 'small islands')} left to fall out"
+        if member := each["narrowest_member"]:
+            yield f"narrowest member {format_mm(member['mm'])} mm {_place(member)}"
+        if neck := each["weakest_neck"]:
+            bridges = _counted(neck["bridges"], "bridge", "bridges")
+            yield f"weakest neck {_place(neck)}: {neck['holds_mm2']:,} mm² hang on {bridges}"
+
+
+def _held(facts: Facts, all_: Facts) -> str:
+    openings = _counted(facts["openings"], "opening", "openings")
+    islands = _counted(facts["islands"], "island", "islands")
+    if all_["backing"] == "net":
+        return f"{openings}, {islands} held by the net"
+    bridges = _counted(facts["bridges"], "bridge", "bridges")
+    closed = f" that close {facts['closed_mm2']:,} mm²" if facts["bridges"] else ""
+    return f"{openings}, {islands}, {bridges} of {format_mm(all_['bridge_mm'])} mm{closed}"
+
+
+def _place(facts: Facts) -> str:
+    x, y = facts["at_mm"]
+    return f"at {x:.3f}, {y:.3f} mm"
+
+
 def _cuts(facts: Facts) -> str:
     if not facts["contours"]:
         return "nothing is left to cut"
@@ -101,5 +128,10 @@ def duration(seconds: float) -> str:
     return f"{minutes} min {whole % 60} s" if minutes else f"{whole} s"
 
 
-_TOLD: dict[str, Callable[[Facts], Iterator[str]]] = {"plot": _plot, "cut": _cut, "wax": _wax}
+_TOLD: dict[str, Callable[[Facts], Iterator[str]]] = {
+    "stencil": _stencil,
+    "plot": _plot,
+    "cut": _cut,
+    "wax": _wax,
+}
 """What tells of each process, by its kind."""

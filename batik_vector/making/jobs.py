@@ -26,7 +26,16 @@ from batik_vector.errors import (
 from batik_vector.export import FORMATS, write_all_whole
 from batik_vector.machines.profile import LANGUAGES
 from batik_vector.making.facts import facts_of, page_warnings, warnings
-from batik_vector.making.pages import Latest, Part, divided, drawings_of, piece_of, render_output, size_of
+from batik_vector.making.pages import (
+    Latest,
+    Part,
+    divided,
+    done_to_tile,
+    drawings_of,
+    piece_of,
+    render_output,
+    size_of,
+)
 from batik_vector.recipe.loading import load_recipe, located
 from batik_vector.recipe.model import OutputSpec, Recipe
 from batik_vector.recipe.outputs import OUTPUTS, Piece
@@ -264,13 +273,20 @@ def run(job: Job, tell: Callable[[str], None], look: Callable[[Page], None] | No
         look(shown)
     reports: list[dict[str, Any]] = []
     writers, latest = [], Latest()
+
+    def filled(tile: Artwork) -> Page:
+        if recipe.border:
+            raise RecipeError([Fault("is done to the tile, and borders would stay as they are", "process")])
+        return compile_cloth(recipe, tile=tile, progress=tell)
+
     notes = [] if tile is None else warnings(recipe, tile)
     for path, output in job.files:
         page: Page | None = cloth if piece_of(recipe, output) == Piece.YARDAGE else tile
         if page is not None:
             with _on_behalf(job, key := _key_of(job, output)):
+                page, output, before = done_to_tile(tile, page, output, latest, filled)
                 parts = divided(page, output, latest)
-            for part in parts:
+            for part in (part.after(before) for part in parts):
                 place = path.with_name(f"{path.stem}{part.ending}{path.suffix}")
                 size = size_of(page, output)
                 writers.append((place, _writer(job, place, key, part, size, tell, reports, latest)))
@@ -319,7 +335,7 @@ def _writer(
         with _on_behalf(job, key):
             facts = render_output(part.page, part.output, sink, latest)
         if part.facts is not None:
-            facts = part.facts
+            facts = {**part.facts, **facts}
         reports.append(
             {
                 "path": str(path),

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO, TypeAlias
 
 from batik_vector.artwork import Artwork, Page
 from batik_vector.errors import Fault, GeometryError, RecipeError
@@ -21,6 +21,10 @@ if TYPE_CHECKING:
     from batik_vector.importing.drawing.marks import Drawing
     from batik_vector.processes.options import ProcessSpec
     from batik_vector.processes.prepared import Prepared
+
+_Asked: TypeAlias = "tuple[Page, tuple[ProcessSpec, ...], Machine]"
+Done: TypeAlias = "tuple[Prepared | Artwork, Mapping[str, Any]]"
+"""A page as processes leave it, and what they report."""
 
 
 def piece_of(recipe: Recipe, output: OutputSpec) -> Piece:
@@ -47,21 +51,63 @@ class Part:
     ending: str = ""
     facts: Mapping[str, Any] | None = None
 
+    def after(self, before: Mapping[str, Any] | None) -> Part:
+        """Return the part with what processes have had to report that its tile went through before."""
+        return self if before is None else replace(self, facts={**before, **(self.facts or {})})
+
 
 class Latest:
-    """The last page that went through processes: the next file of a recipe often asks for the same."""
+    """The last pages that went through processes: the next file of a recipe often asks for the same."""
+
+    KEPT = 2
+    """A tile that went through some, and what others made of the page that it was set out to."""
 
     def __init__(self) -> None:
-        self._asked: tuple[Page, tuple[ProcessSpec, ...], Machine] | None = None
-        self._done: tuple[Prepared | Artwork, Mapping[str, Any]] | None = None
+        self._known: list[tuple[_Asked, Done]] = []
 
-    def through(self, page: Page, output: OutputSpec) -> tuple[Prepared | Artwork, Mapping[str, Any]]:
+    def through(self, page: Page, output: OutputSpec) -> Done:
         """Return a page as the processes of an output, one at least, leave it, and what they report."""
         asked = page, output.process, output.machine_profile or Machine()
-        known = self._asked
-        if self._done is None or known is None or known[0] is not page or known[1:] != asked[1:]:
-            self._done, self._asked = _through(*asked), asked
-        return self._done
+        for known, done in self._known:
+            if known[0] is page and known[1:] == asked[1:]:
+                return done
+        done = _through(*asked)
+        self._known = [*self._known, (asked, done)][-self.KEPT :]
+        return done
+
+
+def done_to_tile(
+    tile: Artwork | None, page: Page, output: OutputSpec, latest: Latest, filled: Callable[[Artwork], Page]
+) -> tuple[Page, OutputSpec, Mapping[str, Any] | None]:
+    """Return a page made of its tile as the processes leave this that are done to the tile, and the rest.
+
+    Args:
+        tile: of the recipe, if it has one.
+        page: the tile, or a cloth.
+        output: what is asked of it.
+        latest: what went through processes before.
+        filled: returns the cloth that a tile fills.
+
+    Returns:
+        The page, the output with the processes that are left, and what those before them have to report.
+
+    Raises:
+        RecipeError: where a process has to be done to the tile, and there is none or it stands too late.
+    """
+    first = next((k for k, each in enumerate(output.process) if not each.of_tile), len(output.process))
+    for number, each in enumerate(output.process[first:], first):
+        if each.of_tile:
+            words = f'"{each.kind}", expected before what is not done to the tile: it repeats with it'
+            raise RecipeError([Fault(words, f"process[{number}].kind")])
+    if not first:
+        return page, output, None
+    if tile is None:
+        words = f'"{output.process[0].kind}" is done to the tile, and the recipe has borders alone'
+        raise RecipeError([Fault(words, "process")])
+    done, facts = latest.through(tile, replace(output, process=output.process[:first]))
+    assert isinstance(done, Artwork)
+    made = done if page is tile else filled(done)
+    return made, replace(output, process=output.process[first:]), facts
 
 
 def divided(page: Page, output: OutputSpec, latest: Latest) -> list[Part]:
@@ -124,9 +170,7 @@ def prepared(page: Page, output: OutputSpec, latest: Latest | None = None) -> tu
     return with_travel(done), facts
 
 
-def _through(
-    page: Page, processes: Sequence[ProcessSpec], machine: Machine
-) -> tuple[Prepared | Artwork, Mapping[str, Any]]:
+def _through(page: Page, processes: Sequence[ProcessSpec], machine: Machine) -> Done:
     facts: dict[str, Any] = {}
     for number, process in enumerate(processes):
         with _keyed(_process_key(processes, number)):

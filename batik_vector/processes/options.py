@@ -18,6 +18,7 @@ from batik_vector.errors import GeometryError
 from batik_vector.fields import Between, Length, OneOf, Says, check
 from batik_vector.processes.cutting.choices import Inks, Keep, LineBodies, Narrow, Start, Turns
 from batik_vector.processes.hatching.options import AnyHatch
+from batik_vector.processes.stencilling.choices import Backing
 from batik_vector.processes.waxing.choices import Plates, Removal
 from batik_vector.units import format_mm
 from batik_vector.values import frozen
@@ -37,6 +38,8 @@ class ProcessSpec:
     """Where its ``apply`` stands."""
     keeps_tile: ClassVar[bool] = True
     """Whether what is left repeats as the tile did."""
+    of_tile: ClassVar[bool] = False
+    """Whether it is done to the tile, before this is repeated, bled or filled into cloth."""
 
     def __post_init__(self) -> None:
         check(self)
@@ -257,6 +260,43 @@ class CutProcess(StrokeProcess):
 
 
 @frozen(kw_only=True)
+class StencilProcess(ProcessSpec):
+    """Areas as openings of a sheet that is one piece, held by bridges, on the endless cloth."""
+
+    kind = "stencil"
+    module = "batik_vector.processes.stencil"
+    of_tile = True
+
+    bridge: Annotated[
+        Annotated[Length, Between(0.1, 100)], Says("breadth of the bridges that hold islands")
+    ] = 1.27
+    inks: Annotated[Inks, Says("a stencil for each ink (apart), or one of all as they show (together)")] = (
+        Inks.APART
+    )
+    lines: Annotated[
+        LineBodies, Says("lines are open as broad as their ink (body), left out (skip) or refused")
+    ] = LineBodies.BODY
+    symmetric: Annotated[bool, Says("bridges follow the symmetry of what is open")] = True
+    drop: Annotated[
+        Annotated[Length, Between(0.01, 1000)] | None,
+        Says("islands less across than that are left to fall out; none if unset"),
+    ] = None
+    large: Annotated[
+        Annotated[Length, Between(0.1, 100_000)] | None,
+        Says("islands so much across or more are large, and held by more bridges; none if unset"),
+    ] = None
+    large_bridges: Annotated[int, Between(2, 8), Says("bridges that hold a large island, at least")] = 2
+    backing: Annotated[
+        Backing, Says("what holds the sheet: bridges alone (none), or a net, on which islands are legal")
+    ] = Backing.NONE
+
+    def apply(self, page: Page, machine: Machine) -> Artwork:
+        """Return the tile of openings, a layer for each stencil; see :meth:`ProcessSpec.apply`."""
+        done: Artwork = self._applied(page, machine)
+        return done
+
+
+@frozen(kw_only=True)
 class WaxProcess(ProcessSpec):
     """Wax plates of a dyeing: what is waxed, and what scraped off again, before each bath."""
 
@@ -286,7 +326,9 @@ class WaxProcess(ProcessSpec):
         return found
 
 
-PROCESSES: dict[str, type[ProcessSpec]] = {each.kind: each for each in (PlotProcess, CutProcess, WaxProcess)}
+PROCESSES: dict[str, type[ProcessSpec]] = {
+    each.kind: each for each in (PlotProcess, CutProcess, StencilProcess, WaxProcess)
+}
 """The catalogue of processes."""
 
 AnyProcess: TypeAlias = Annotated[ProcessSpec, OneOf(lambda: PROCESSES, "process")]

@@ -1,0 +1,1 @@
+"""Stencilling: bridges by which a sheet with openings is one piece, on the torus and on the endless cloth."""
