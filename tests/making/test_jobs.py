@@ -222,13 +222,13 @@ def test_what_is_divided_goes_through_its_processes_once(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     calls = []
-    apply = ProcessSpec.apply
+    apply = ProcessSpec._applied
 
     def counted(self: ProcessSpec, *of: Any) -> Any:
         calls.append(self)
         return apply(self, *of)
 
-    monkeypatch.setattr(ProcessSpec, "apply", counted)
+    monkeypatch.setattr(ProcessSpec, "_applied", counted)
     report = made(tmp_path, TILE + outputs(TILED + 'process = { kind = "plot" }\n'))
     assert len(calls) == 1
     assert ["process" in each for each in report["files"]] == [True] * 4
