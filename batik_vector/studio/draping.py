@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from typing import TypeAlias
 
 from batik_vector.artwork import Artwork
 from batik_vector.errors import TooLargeError
@@ -20,6 +21,8 @@ from batik_vector.values import frozen
 
 MOST = 800_000
 """Vertices of the cloth under a form."""
+Bounds: TypeAlias = tuple[float, float, float, float]
+_NUMBER = re.compile(r"-?[0-9.]+")
 _BODY = re.compile(r"<svg\b[^>]*>(.*)</svg>", re.DOTALL)
 _FRONT = re.compile(
     r"<(?:title|desc|metadata|sodipodi:namedview)\b.*?(?:/>|</(?:title|desc|metadata)>)", re.S
@@ -33,71 +36,161 @@ class Piece:
     outline: str
     turn: float = 0.0
 
+    @property
+    def bounds(self) -> Bounds:
+        """Where its points lie, those of its curves included: left, top, right, bottom."""
+        numbers = [float(each) for each in _NUMBER.findall(self.outline)]
+        return min(numbers[::2]), min(numbers[1::2]), max(numbers[::2]), max(numbers[1::2])
+
+    @property
+    def middle(self) -> tuple[float, float]:
+        """The point that its grain is turned about."""
+        left, top, right, bottom = self.bounds
+        return (left + right) / 2, (top + bottom) / 2
+
+    @property
+    def reach(self) -> Bounds:
+        """The bounds of the cloth that it is cut from, before its grain is turned."""
+        left, top, right, bottom = self.bounds
+        x, y = self.middle
+        angle = math.radians(self.turn)
+        cos, sin = abs(math.cos(angle)), abs(math.sin(angle))
+        width, height = (
+            (right - left) * cos + (bottom - top) * sin,
+            (right - left) * sin + (bottom - top) * cos,
+        )
+        return x - width / 2, y - height / 2, x + width / 2, y + height / 2
+
+
+@frozen
+class Tone:
+    """Something that is painted in one tone: path data in mm, y down, its colour and how much it hides."""
+
+    outline: str
+    colour: str
+    opacity: float
+
 
 @frozen
 class Form:
-    """What cloth is shown on: how large it is in mm, its pieces, and shades: path data, colour, opacity."""
+    """What cloth is shown on.
+
+    Args:
+        size: breadth and height in mm.
+        pieces: of cloth, the lowest first.
+        under: what lies beneath all cloth, such as the inside of a collar.
+        folds: soft shades and lights on the cloth.
+        seams: lines on the cloth, as path data.
+        dots: middles of buttons.
+    """
 
     size: tuple[float, float]
     pieces: tuple[Piece, ...]
-    shades: tuple[tuple[str, str, float], ...] = ()
+    under: tuple[Tone, ...] = ()
+    folds: tuple[Tone, ...] = ()
     seams: tuple[str, ...] = ()
+    dots: tuple[tuple[float, float], ...] = ()
+
+    @property
+    def reach(self) -> Bounds:
+        """The bounds of the cloth that all its pieces are cut from."""
+        left, top, right, bottom = zip(*(piece.reach for piece in self.pieces), strict=True)
+        return min(left), min(top), max(right), max(bottom)
 
 
+DARK, LIGHT = "#101018", "#ffffff"
 CUSHION = Form(
-    (520.0, 520.0),
+    (560.0, 560.0),
     (
         Piece(
-            "M45 40 C150 62 370 62 475 40 C484 36 489 42 485 52 C461 150 461 370 485 468 "
-            "C489 479 483 486 475 481 C370 459 150 459 45 481 "
-            "C36 485 31 479 35 469 C59 370 59 150 35 52 C31 42 37 36 45 40 Z"
+            "M66 56 C175 80 385 80 494 56 C506 53 511 59 507 70 C481 172 481 388 507 490 "
+            "C511 501 506 507 494 504 C385 480 175 480 66 504 C54 507 49 501 53 490 "
+            "C79 388 79 172 53 70 C49 59 54 53 66 56 Z"
         ),
     ),
-    (
-        (
-            "M45 481 C150 459 370 459 475 481 C440 440 360 425 260 425 C160 425 80 440 45 481 Z",
-            "#000000",
-            0.16,
+    under=(
+        Tone("M90 500 C180 492 380 492 470 500 C500 520 440 532 280 532 C120 532 60 520 90 500 Z", DARK, 0.3),
+    ),
+    folds=(
+        Tone("M40 520 L520 520 L520 40 C492 210 470 380 440 440 C330 478 190 480 40 520 Z", DARK, 0.34),
+        Tone("M40 40 L520 40 C400 92 180 92 100 110 C84 190 92 380 40 520 Z", DARK, 0.14),
+        Tone(
+            "M150 140 C230 110 330 118 372 140 C330 240 230 330 168 372 C130 320 120 200 150 140 Z",
+            LIGHT,
+            0.2,
         ),
-        (
-            "M485 52 C461 150 461 370 485 468 C450 420 440 350 440 260 C440 170 452 100 485 52 Z",
-            "#000000",
-            0.1,
-        ),
-        ("M70 75 C160 92 300 92 380 88 C250 120 130 150 95 330 C84 240 82 150 70 75 Z", "#ffffff", 0.12),
+        Tone("M66 56 C110 110 140 150 176 176 C136 160 96 120 60 66 Z", DARK, 0.3),
+        Tone("M494 56 C450 110 420 150 384 176 C424 160 464 120 500 66 Z", DARK, 0.3),
+        Tone("M66 504 C110 450 140 410 176 384 C136 400 96 440 60 494 Z", DARK, 0.3),
+        Tone("M494 504 C450 450 420 410 384 384 C424 400 464 440 500 494 Z", DARK, 0.3),
+    ),
+    seams=(
+        "M70 64 C178 88 382 88 490 64 M499 72 C473 174 473 386 499 488 M490 496 C382 472 178 472 70 496 "
+        "M61 488 C87 386 87 174 61 72",
     ),
 )
 SHIRT = Form(
-    (1100.0, 900.0),
+    (1120.0, 960.0),
     (
         Piece(
-            "M330 150 L165 240 L55 470 L190 540 L300 400 L310 330 Z",
-            24.0,
+            "M348 172 C290 190 226 222 178 262 C128 330 84 424 58 516 L198 574 C226 512 268 450 316 404 Z",
+            22.0,
         ),
         Piece(
-            "M770 150 L935 240 L1045 470 L910 540 L800 400 L790 330 Z",
-            -24.0,
+            "M772 172 C830 190 894 222 942 262 C992 330 1036 424 1062 516 L922 574 "
+            "C894 512 852 450 804 404 Z",
+            -22.0,
         ),
         Piece(
-            "M330 150 L430 112 C470 160 630 160 670 112 L770 150 L790 330 C784 500 788 690 800 852 "
-            "C650 872 450 872 300 852 C312 690 316 500 310 330 Z"
+            "M348 172 C392 156 424 146 458 132 C470 182 520 236 560 246 C600 236 650 182 662 132 "
+            "C696 146 728 156 772 172 C790 240 800 330 804 404 C800 560 806 730 820 884 "
+            "C660 908 460 908 300 884 C314 730 320 560 316 404 C320 330 330 240 348 172 Z"
+        ),
+        Piece(
+            "M458 132 C450 128 446 120 450 110 L470 98 C482 160 524 208 562 226 "
+            "L560 252 C514 238 468 184 458 132 Z",
+            90.0,
+        ),
+        Piece(
+            "M662 132 C670 128 674 120 670 110 L650 98 C638 160 596 208 558 226 "
+            "L560 252 C606 238 652 184 662 132 Z",
+            90.0,
         ),
     ),
-    (
-        ("M330 150 C360 260 352 420 372 852 L300 852 C312 690 316 500 310 330 Z", "#000000", 0.13),
-        ("M770 150 C742 260 752 430 728 858 L800 852 C788 690 784 500 790 330 Z", "#000000", 0.16),
-        ("M470 180 C462 380 470 620 452 868 L486 869 C500 620 486 400 492 190 Z", "#000000", 0.08),
-        ("M600 190 C610 400 596 640 622 868 L596 869 C574 640 588 400 580 186 Z", "#ffffff", 0.08),
-        ("M55 470 L190 540 L205 520 L70 440 Z", "#000000", 0.12),
-        ("M1045 470 L910 540 L895 520 L1030 440 Z", "#000000", 0.12),
+    under=(
+        Tone("M100 880 C300 930 820 930 1020 880 C900 950 220 950 100 880 Z", DARK, 0.1),
+        Tone(
+            "M470 98 C520 84 600 84 650 98 C640 160 600 206 560 228 C520 206 480 160 470 98 Z",
+            "#2b2b33",
+            0.92,
+        ),
     ),
-    (
-        "M430 112 C470 160 630 160 670 112",
-        "M437 122 C478 176 622 176 663 122",
-        "M550 156 L550 866",
-        "M330 150 L310 330 L300 400",
-        "M770 150 L790 330 L800 400",
+    folds=(
+        Tone(
+            "M300 884 C314 730 320 560 316 404 C320 330 330 240 348 172 C386 300 372 560 384 892 Z",
+            DARK,
+            0.26,
+        ),
+        Tone(
+            "M820 884 C806 730 800 560 804 404 C800 330 790 240 772 172 C734 300 748 560 736 892 Z", DARK, 0.3
+        ),
+        Tone("M420 300 C452 480 420 700 446 896 L478 898 C462 700 484 480 452 290 Z", LIGHT, 0.16),
+        Tone("M660 330 C640 520 672 720 650 896 L628 898 C640 720 612 520 634 320 Z", DARK, 0.16),
+        Tone("M560 250 L576 250 L576 902 L560 902 Z", DARK, 0.2),
+        Tone("M58 516 L198 574 C212 540 232 504 256 470 L96 404 C80 440 68 480 58 516 Z", DARK, 0.16),
+        Tone(
+            "M1062 516 L922 574 C908 540 888 504 864 470 L1024 404 C1040 440 1052 480 1062 516 Z", DARK, 0.24
+        ),
+        Tone("M330 250 C300 300 280 350 316 404 L300 420 C262 380 268 300 330 250 Z", DARK, 0.3),
+        Tone("M790 250 C820 300 840 350 804 404 L820 420 C858 380 852 300 790 250 Z", DARK, 0.34),
+        Tone("M250 250 C200 300 160 380 130 470 L160 482 C190 390 226 320 274 268 Z", LIGHT, 0.14),
     ),
+    seams=(
+        "M560 250 L560 901 M590 244 L590 900",
+        "M66 494 L206 552 M1054 494 L914 552",
+        "M302 868 C462 892 658 892 818 868",
+    ),
+    dots=((575.0, 330.0), (575.0, 440.0), (575.0, 550.0), (575.0, 660.0), (575.0, 770.0)),
 )
 FORMS: Mapping[str, Form] = {"cushion": CUSHION, "shirt": SHIRT}
 
@@ -109,10 +202,9 @@ def draped(tile: Artwork, name: str) -> tuple[str, tuple[float, float]]:
         TooLargeError: where the cloth would be too much to show.
     """
     form = FORMS[name]
-    width, height = form.size
-    # Turned pieces reach beyond the form's own rectangle.
-    reach = math.hypot(width, height) if any(piece.turn for piece in form.pieces) else max(width, height)
-    across, up = (max(1, math.ceil(reach / side)) for side in (tile.cell.width, tile.cell.height))
+    left, top, right, bottom = form.reach
+    across = max(1, math.ceil((right - left) / tile.cell.width))
+    up = max(1, math.ceil((bottom - top) / tile.cell.height))
     page = field_page(tile, across, up)
     if page.vertex_count > MOST:
         raise TooLargeError(
@@ -120,29 +212,62 @@ def draped(tile: Artwork, name: str) -> tuple[str, tuple[float, float]]:
             "at the tile or the field"
         )
     cloth = _body(svg_text(page, SvgOptions(profile=Profile.COMPACT)))
-    dx, dy = (format_mm((side - whole) / 2) for side, whole in zip(form.size, _size(page), strict=True))
-    parts = [
+    # Its middle lies on the middle of the form: a design that is its own mirror image is worn so.
+    wide, high = _size(page)
+    x, y = (left + right - wide) / 2, (top + bottom - high) / 2
+    moved = f'<g transform="translate({format_mm(x)} {format_mm(y)})">{cloth}</g>'
+    return _drawn(form, name, moved), form.size
+
+
+def _drawn(form: Form, name: str, cloth: str) -> str:
+    """Return the picture: what lies under, pieces cut out of the cloth, folds on them, and seams."""
+    width, height = form.size
+    soft, thin = max(form.size) / 70, max(form.size) / 700
+    defs = [f'<g id="{name}-cloth">{cloth}</g>']
+    defs.append(_blur(f"{name}-soft", soft))
+    defs.append(
+        f'<clipPath id="{name}-all">' + "".join(_path(each.outline) for each in form.pieces) + "</clipPath>"
+    )
+    shown = [f'<g filter="url(#{name}-soft)">{_tones(form.under[:1])}</g>{_tones(form.under[1:])}']
+    for number, piece in enumerate(form.pieces):
+        defs.append(f'<clipPath id="{name}-{number}">{_path(piece.outline)}</clipPath>')
+        x, y = piece.middle
+        turn = f' transform="rotate({piece.turn:g} {x:g} {y:g})"' if piece.turn else ""
+        shown.append(f'<g clip-path="url(#{name}-{number})"><use href="#{name}-cloth"{turn}/></g>')
+    shown.append(
+        f'<g clip-path="url(#{name}-all)"><g filter="url(#{name}-soft)">{_tones(form.folds)}</g></g>'
+    )
+    drawn = f'fill="none" stroke="{DARK}" stroke-linejoin="round" stroke-linecap="round"'
+    edges = "".join(_path(each.outline) for each in form.pieces)
+    shown.append(f'<g {drawn} stroke-opacity="0.55" stroke-width="{thin:.2f}">{edges}</g>')
+    stitched = (
+        f'stroke-opacity="0.4" stroke-width="{thin:.2f}" stroke-dasharray="{4 * thin:.1f} {3 * thin:.1f}"'
+    )
+    shown.append(f"<g {drawn} {stitched}>" + "".join(map(_path, form.seams)) + "</g>")
+    for x, y in form.dots:
+        shown.append(
+            f'<circle cx="{x:g}" cy="{y:g}" r="7" fill="#f3efe6" stroke="{DARK}" stroke-opacity="0.6"/>'
+        )
+    root = (
         f'<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="{INKSCAPE}" '
         f'width="{width:g}mm" height="{height:g}mm" viewBox="0 0 {width:g} {height:g}">'
-    ]
-    parts.append(f'<defs><g id="cloth-on-{name}" transform="translate({dx} {dy})">{cloth}</g>')
-    parts += [
-        f'<clipPath id="{name}-{number}"><path d="{piece.outline}"/></clipPath>'
-        for number, piece in enumerate(form.pieces)
-    ]
-    parts.append("</defs>")
-    for number, piece in enumerate(form.pieces):
-        turn = f' transform="rotate({piece.turn:g} {width / 2:g} {height / 2:g})"' if piece.turn else ""
-        parts.append(f'<g clip-path="url(#{name}-{number})"><use href="#cloth-on-{name}"{turn}/></g>')
-    thin = max(form.size) / 600
-    for outline, colour, opacity in form.shades:
-        parts.append(f'<path d="{outline}" fill="{colour}" fill-opacity="{opacity}"/>')
-    lines = [piece.outline for piece in form.pieces] + list(form.seams)
-    for line in lines:
-        parts.append(
-            f'<path d="{line}" fill="none" stroke="#000000" stroke-opacity="0.45" stroke-width="{thin:.2f}"/>'
-        )
-    return "".join([*parts, "</svg>\n"]), form.size
+    )
+    return f"{root}<defs>{''.join(defs)}</defs>{''.join(shown)}</svg>\n"
+
+
+def _blur(name: str, reach: float) -> str:
+    room = 'x="-20%" y="-20%" width="140%" height="140%"'
+    return f'<filter id="{name}" {room}><feGaussianBlur stdDeviation="{reach:.1f}"/></filter>'
+
+
+def _path(outline: str) -> str:
+    return f'<path d="{outline}"/>'
+
+
+def _tones(tones: Sequence[Tone]) -> str:
+    return "".join(
+        f'<path d="{each.outline}" fill="{each.colour}" fill-opacity="{each.opacity:g}"/>' for each in tones
+    )
 
 
 def _size(page: object) -> tuple[float, float]:

@@ -29,6 +29,8 @@ from batik_vector.tiling.cloth.field import field_page
 from batik_vector.values import frozen
 
 METRE = 1000.0
+SHARP = 2000.0
+"""Parts of a form's side to which edges on it are true."""
 MOST_SHOWN = 1_500_000
 """Vertices of a picture that a browser still moves."""
 
@@ -93,12 +95,15 @@ class Looker:
     def _compiled(
         self, draft: Draft, view: View, tell: Callable[[str], None]
     ) -> tuple[Recipe, Artwork | None]:
-        key = draft.text, draft.folder, draft.drawings, view.tolerance
+        # On a form half a millimetre is less than a pixel.
+        form = max(FORMS[view.kind].size) / SHARP if view.kind in FORMS else 0.0
+        tolerance = max(view.tolerance, form)
+        key = draft.text, draft.folder, draft.drawings, tolerance
         if self._known is not None and self._known[0] == key:
             return self._known[1:]
         recipe = read_recipe(draft.text, draft.stem, folder=draft.folder, drawings=dict(draft.drawings))
-        if recipe.tolerance < view.tolerance:
-            recipe = replace(recipe, tolerance=view.tolerance)
+        if recipe.tolerance < tolerance:
+            recipe = replace(recipe, tolerance=tolerance)
         tile = compile_recipe(recipe, progress=tell) if recipe.tile is not None else None
         # What it names may change on the disk.
         self._known = None if recipe.drawing else (key, recipe, tile)

@@ -1,0 +1,94 @@
+from __future__ import annotations
+
+import asyncio
+import io
+import zipfile
+from pathlib import Path
+
+import pytest
+
+from batik_vector.export import FORMATS
+from batik_vector.making.jobs import planned, read_jobs, run_quietly
+from batik_vector.studio.asking import Wishes
+from batik_vector.studio.drafts import Draft
+from batik_vector.studio.exports import Exported, download, export, file_names, zipped
+from batik_vector.studio.pictures import EXPORT, Pictures
+from tests.studio.test_drafts import FLOWER
+
+SAMPLES = Path(__file__).parents[2] / "samples"
+ALL = tuple(FORMATS)
+
+
+def commands(source: Path, folder: Path, formats: tuple[str, ...]) -> dict[str, bytes]:
+    """Return the files that the command writes."""
+    (job,) = planned(read_jobs([str(source)]), folder, formats)
+    run_quietly(job)
+    return {path.name: path.read_bytes() for path in folder.iterdir()}
+
+
+@pytest.mark.parametrize("name", ["four-square", "own-boteh", "machine-plotter", "border-p2", "lasem-bird"])
+def test_files_are_the_commands_byte_for_byte(tmp_path: Path, name: str) -> None:
+    formats = ("svg", "pdf", "dxf", "hpgl") if name == "border-p2" else ALL
+    source = SAMPLES / f"{name}.toml"
+    made = export(Draft.read(source), Wishes(formats))
+    assert made.faults == ()
+    assert made.files == commands(source, tmp_path, formats)
+    assert [each["path"] for each in made.report["files"]] == list(made.files)
+
+
+def test_a_draft_that_was_changed_is_what_the_command_makes_of_its_text(tmp_path: Path) -> None:
+    draft = Draft.read(SAMPLES / "kawung.toml").with_value("seed", 5).with_value("title", "Mine")
+    (tmp_path / "kawung.toml").write_text(draft.text, encoding="utf-8")
+    assert export(draft, Wishes()).files == commands(tmp_path / "kawung.toml", tmp_path / "out", ())
+
+
+def test_processes_and_machines_are_those_of_the_call() -> None:
+    wishes = Wishes(("svg",), ("cut kerf=0.15mm",), "laser")
+    made = export(Draft(FLOWER, stem="k"), wishes)
+    assert made.faults == ()
+    assert made.report["files"][0]["process"]
+    assert made.files != export(Draft(FLOWER, stem="k"), Wishes(("svg",))).files
+
+
+def test_what_files_will_be_called_is_known_before() -> None:
+    draft = Draft.read(SAMPLES / "four-square.toml")
+    names = file_names(draft, Wishes(("svg", "png"), recipe=True))
+    assert names == ("four-square.svg", "four-square.png", "four-square.toml")
+    made = export(draft, Wishes(("svg", "png"), recipe=True))
+    assert tuple(made.files) == names
+    assert Draft.of_text(made.files["four-square.toml"].decode()).text == draft.text
+
+
+def test_faults_come_with_their_keys_and_no_files() -> None:
+    made = export(Draft(FLOWER).with_value("motif.a.petal.count", 999), Wishes())
+    assert (made.files, made.faults[0].key) == ({}, "motif.a.petal.count")
+    made = export(Draft(FLOWER), Wishes(machine="lazer"))
+    assert "laser" in made.faults[0].message
+    made = export(Draft(FLOWER), Wishes(processes=("cut kerf=x",)))
+    assert made.faults
+
+
+def test_several_files_are_one_zip_and_always_the_same() -> None:
+    files = {"a.svg": b"<svg/>", "b.pdf": b"%PDF" * 100}
+    whole = zipped(files)
+    assert whole == zipped(dict(files))
+    with zipfile.ZipFile(io.BytesIO(whole)) as archive:
+        assert archive.testzip() is None
+        assert {name: archive.read(name) for name in archive.namelist()} == files
+    assert download(Exported(files), "k") == ("k.zip", whole)
+    assert download(Exported({"a.svg": b"<svg/>"}), "k") == ("a.svg", b"<svg/>")
+
+
+def test_they_are_made_by_another_process_and_can_be_cancelled() -> None:
+    slow = Draft.read(SAMPLES / "lotus-pond.toml").with_value("tolerance", 0.002)
+
+    async def both() -> None:
+        async with Pictures() as pictures:
+            draft = Draft(FLOWER, stem="k")
+            made = await pictures.export(draft, Wishes(("svg", "dxf")))
+            assert made.files == export(draft, Wishes(("svg", "dxf"))).files
+            asyncio.get_running_loop().call_later(0.2, lambda: pictures.cancel(EXPORT))
+            stopped = await pictures.export(slow)
+            assert (stopped.files, stopped.faults[0].message) == ({}, "cancelled")
+
+    asyncio.run(both())
