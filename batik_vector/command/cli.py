@@ -31,6 +31,7 @@ from batik_vector.command.studio import studio_command
 from batik_vector.command.sweeps import random_command, sweep_command
 from batik_vector.command.telling import collecting, complain, faults_told, reported, stages
 from batik_vector.command.watch import watch_command
+from batik_vector.command.worksheets import worksheet_command
 from batik_vector.errors import BatikError, unknown_name
 
 if TYPE_CHECKING:
@@ -332,6 +333,7 @@ def new_command(name: str | None, kind: str | None, path: str | None, force: boo
 
 for _command in (
     watch_command,
+    worksheet_command,
     sweep_command,
     random_command,
     import_command,

@@ -58,6 +58,16 @@ def _wax(facts: Facts) -> Iterator[str]:
         pieces = _counted(each["pieces"], "piece", "pieces")
         area = f"{each['area_mm2'] / 100:,.1f} cm²"
         yield f"{each['plate']}: {area} in {pieces}, {each['covers']:.1%} of the cloth"
+        drawn = [
+            f"{metres(1000 * one['metres'])} with {one['canting']} ({format_mm(one['spout_mm'])} mm)"
+            for one in each["cantings"]
+            if one["metres"] >= 0.001
+        ]
+        dots = [f"{_counted(each['dots'], 'dot', 'dots')} among them"] if each["dots"] else []
+        if drawn:
+            yield f"  {', '.join(drawn + dots)}"
+        if each["finer_mm2"] >= 0.05:
+            yield f"  {each['finer_mm2']:,.1f} mm² are finer than the finest canting: points, or thin lines"
 
 
 def _stencil(facts: Facts) -> Iterator[str]:

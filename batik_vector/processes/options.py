@@ -12,14 +12,14 @@ import json
 import re
 from dataclasses import field
 from importlib import import_module
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self, TypeAlias
+from typing import TYPE_CHECKING, Annotated, ClassVar, Self, TypeAlias, cast
 
 from batik_vector.errors import GeometryError
 from batik_vector.fields import Between, Length, OneOf, Says, check
 from batik_vector.processes.cutting.choices import Inks, Keep, LineBodies, Narrow, Start, Turns
 from batik_vector.processes.hatching.options import AnyHatch
 from batik_vector.processes.stencilling.choices import Backing
-from batik_vector.processes.waxing.choices import Plates, Removal
+from batik_vector.processes.waxing.choices import CANTINGS, Plates, Removal
 from batik_vector.units import format_mm
 from batik_vector.values import frozen
 
@@ -50,11 +50,8 @@ class ProcessSpec:
         Raises:
             GeometryError: with the key at fault and the value that would do.
         """
-        done: Prepared | Artwork = self._applied(page, machine)
+        done: Prepared | Artwork = import_module(self.module).apply(page, self.resolved(machine), machine)
         return done
-
-    def _applied(self, page: Page, machine: Machine) -> Any:
-        return import_module(self.module).apply(page, self.resolved(machine), machine)
 
     def parts(self, page: Page) -> list[tuple[str, Self]]:
         """Return the files over which what the process leaves is divided, none where it is not.
@@ -86,8 +83,7 @@ class StrokeProcess(ProcessSpec):
 
     def apply(self, page: Page, machine: Machine) -> Prepared:
         """Return the strokes that tools make of a page; see :meth:`ProcessSpec.apply`."""
-        done: Prepared = self._applied(page, machine)
-        return done
+        return cast("Prepared", super().apply(page, machine))
 
 
 def _chosen(spec: object, before: str = "") -> list[tuple[str, str]]:
@@ -259,6 +255,10 @@ class CutProcess(StrokeProcess):
             raise GeometryError(f"sheet_number = {self.sheet_number}, expected the size of a sheet beside it")
 
 
+Spout = Annotated[Length, Between(0.1, 50)]
+"""The breadth of a line that a canting draws."""
+
+
 @frozen(kw_only=True)
 class StencilProcess(ProcessSpec):
     """Areas as openings of a sheet that is one piece, held by bridges, on the endless cloth."""
@@ -292,8 +292,7 @@ class StencilProcess(ProcessSpec):
 
     def apply(self, page: Page, machine: Machine) -> Artwork:
         """Return the tile of openings, a layer for each stencil; see :meth:`ProcessSpec.apply`."""
-        done: Artwork = self._applied(page, machine)
-        return done
+        return cast("Artwork", super().apply(page, machine))
 
 
 @frozen(kw_only=True)
@@ -314,11 +313,13 @@ class WaxProcess(ProcessSpec):
         Says("the one in the file, all as its layers (all), or what comes out (cloth); a file each if unset"),
     ] = ""
     mirror: Annotated[bool, Says("left and right changed, for the back of the cloth")] = False
+    cantings: Annotated[
+        dict[str, Spout], Says("breadths of the spouts that there are: the broadest that fits draws")
+    ] = field(default_factory=lambda: dict(CANTINGS))
 
     def apply(self, page: Page, machine: Machine) -> Artwork:
         """Return a plate, all as layers, or the cloth; see :meth:`ProcessSpec.apply`."""
-        done: Artwork = self._applied(page, machine)
-        return done
+        return cast("Artwork", super().apply(page, machine))
 
     def parts(self, page: Page) -> list[tuple[str, Self]]:
         """Return a file for each plate, where none is named."""

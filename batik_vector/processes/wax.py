@@ -14,12 +14,13 @@ from typing import Any
 import numpy as np
 import shapely
 
-from batik_vector.artwork import Artwork, Dyeing, Geometries, Ink, Layer, Page, dyeing_of
+from batik_vector.artwork import Artwork, Dyeing, Geometries, Ink, Layer, Page, Seen, dyeing_of
 from batik_vector.errors import GeometryError, nearest
 from batik_vector.machines import Machine
 from batik_vector.processes.options import WaxProcess
+from batik_vector.processes.waxing.cantings import drawn_by
 from batik_vector.processes.waxing.choices import ALL, CLOTH, Removal
-from batik_vector.processes.waxing.planning import Doing, Plate, planned, plates
+from batik_vector.processes.waxing.planning import Doing, Plate, Step, planned, plates
 from batik_vector.processes.waxing.regions import Shown, shown
 from batik_vector.processes.waxing.verdict import colours_of, refusal
 from batik_vector.units import STEPS_PER_MM
@@ -51,9 +52,9 @@ def apply(page: Page, spec: WaxProcess, machine: Machine) -> Artwork:
         page.bleed,
         replace(page.provenance, processes=(*page.provenance.processes, str(spec))),
         _borders(page, layers),
-        {"wax": _facts(page, dyeing, spec, made, layers)},
-        dyeing,
+        dyeing=dyeing,
     )
+    done = replace(done, facts={"wax": _facts(page, done, dyeing, spec)})
     return _mirrored(done) if spec.mirror else done
 
 
@@ -67,6 +68,49 @@ def parts(page: Page, spec: WaxProcess) -> list[tuple[str, WaxProcess]]:
         return []
     _, made = _asked(page, spec)
     return [(_slug(each.name), replace(spec, plate=_slug(each.name))) for each in made]
+
+
+def stages(page: Page, spec: WaxProcess) -> list[tuple[Step, Artwork]]:
+    """Return the steps of the work, each with its picture: a plate, or the cloth after a bath.
+
+    Raises:
+        GeometryError: as :func:`apply`.
+    """
+    dyeing, _ = _asked(page, spec)
+    seen = shown(page)
+    sets = list(dict.fromkeys(seen.seen(dyeing)))
+    waxed: dict[Seen, str] = {}
+    done: list[str] = []
+    found = []
+    number = 0
+    for step in planned(dyeing, sets, spec.removal):
+        colours = dict[Seen, str]()
+        if step.doing is Doing.BOIL:
+            colours = {each: dyeing.colour(each) for each in sets}
+        elif step.doing is Doing.DYE:
+            done.append(step.bath)
+            colours = {each: waxed.get(each) or dyeing.colour(each & set(done)) for each in sets}
+        if colours:
+            layers = [
+                Layer(
+                    Ink("+".join(dyeing.listed(each)) or "undyed", colour),
+                    _in_mm(seen.region(dyeing, [each])),
+                )
+                for each, colour in colours.items()
+            ]
+            found.append((step, _picture(page, layers, colours[dyeing.ground])))
+            continue
+        number += 1
+        layer = _layer(seen, dyeing, Plate(f"{number} {step.name}", step))
+        waxed |= dict.fromkeys(step.sets, layer.ink.colour)
+        if step.doing is Doing.SCRAPE:
+            waxed = {each: colour for each, colour in waxed.items() if each not in step.sets}
+        found.append((step, _picture(page, [layer], dyeing.undyed)))
+    return found
+
+
+def _picture(page: Page, layers: Sequence[Layer], cloth: str) -> Artwork:
+    return Artwork(page.title, page.cell, tuple(layers), cloth, page.tolerance, page.bleed)
 
 
 def _asked(page: Page, spec: WaxProcess) -> tuple[Dyeing, Sequence[Plate]]:
@@ -161,13 +205,17 @@ def _turned(page: Artwork) -> frozenset[tuple[str, int, int, int]]:
     )
 
 
-def _facts(
-    page: Page, dyeing: Dyeing, spec: WaxProcess, made: Sequence[Plate], layers: Sequence[Layer]
-) -> dict[str, Any]:
+def _facts(page: Page, done: Artwork, dyeing: Dyeing, spec: WaxProcess) -> dict[str, Any]:
     """Return what there is to say of plates: their areas, and the order of work."""
+    layers = done.layers
     whole = page.cell.width * page.cell.height
     area = {layer.ink.name: float(shapely.area(layer.areas).sum()) for layer in layers}
     pieces = {layer.ink.name: len(layer.areas) for layer in layers}
+    waxed = () if spec.plate == CLOTH else (STAYS, COMES_OFF)
+    drawn = {
+        layer.ink.name: drawn_by(done, layer.areas, spec.cantings if layer.ink.colour in waxed else {})
+        for layer in layers
+    }
     inks = [plate.ink.name for plate in page.plates if not plate.guide]
     steps = planned(dyeing, colours_of(dyeing, inks).values(), spec.removal)
     return {
@@ -178,6 +226,7 @@ def _facts(
                 "area_mm2": round(each, 3),
                 "covers": round(each / whole, 6),
                 "pieces": pieces[name],
+                **drawn[name],
             }
             for name, each in area.items()
         ],

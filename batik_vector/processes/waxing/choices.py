@@ -23,5 +23,9 @@ class Plates(enum.StrEnum):
     """Each bath: all wax that is on the cloth while it takes the dye."""
 
 
+CANTINGS = {"isen": 0.8, "klowong": 1.6, "tembok": 3.0}
+"""Spouts in mm. Isen are drawn with 0.5 to 1.5 mm and outlines with 1 to 2.5 mm (infobatik.id); within that,
+and for the broad one that fills, these are conventions of this program."""
+
 ALL, CLOTH = "all", "cloth"
 """Instead of the name of one plate: all in one file, or the cloth as it comes out."""
