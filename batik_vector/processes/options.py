@@ -12,7 +12,7 @@ import json
 import re
 from dataclasses import field
 from importlib import import_module
-from typing import TYPE_CHECKING, Annotated, ClassVar, Self, TypeAlias, cast
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self, TypeAlias
 
 from batik_vector.errors import GeometryError
 from batik_vector.fields import Between, Length, OneOf, Says, check
@@ -50,8 +50,11 @@ class ProcessSpec:
         Raises:
             GeometryError: with the key at fault and the value that would do.
         """
-        done: Prepared | Artwork = import_module(self.module).apply(page, self.resolved(machine), machine)
+        done: Prepared | Artwork = self._applied(page, machine)
         return done
+
+    def _applied(self, page: Page, machine: Machine) -> Any:
+        return import_module(self.module).apply(page, self.resolved(machine), machine)
 
     def parts(self, page: Page) -> list[tuple[str, Self]]:
         """Return the files over which what the process leaves is divided, none where it is not.
@@ -83,7 +86,8 @@ class StrokeProcess(ProcessSpec):
 
     def apply(self, page: Page, machine: Machine) -> Prepared:
         """Return the strokes that tools make of a page; see :meth:`ProcessSpec.apply`."""
-        return cast("Prepared", super().apply(page, machine))
+        done: Prepared = self._applied(page, machine)
+        return done
 
 
 def _chosen(spec: object, before: str = "") -> list[tuple[str, str]]:
@@ -292,7 +296,8 @@ class StencilProcess(ProcessSpec):
 
     def apply(self, page: Page, machine: Machine) -> Artwork:
         """Return the tile of openings, a layer for each stencil; see :meth:`ProcessSpec.apply`."""
-        return cast("Artwork", super().apply(page, machine))
+        done: Artwork = self._applied(page, machine)
+        return done
 
 
 @frozen(kw_only=True)
@@ -319,7 +324,8 @@ class WaxProcess(ProcessSpec):
 
     def apply(self, page: Page, machine: Machine) -> Artwork:
         """Return a plate, all as layers, or the cloth; see :meth:`ProcessSpec.apply`."""
-        return cast("Artwork", super().apply(page, machine))
+        done: Artwork = self._applied(page, machine)
+        return done
 
     def parts(self, page: Page) -> list[tuple[str, Self]]:
         """Return a file for each plate, where none is named."""
