@@ -123,6 +123,8 @@ def compile_command(
     formats: Sequence[str],
     processes: Sequence[str],
     machine: str | None,
+    pages: str | None,
+    margin: str | None,
     overrides: Sequence[str],
     jobs: int,
     as_json: bool,
@@ -139,7 +141,7 @@ def compile_command(
 
     collecting()
     with reported(as_json) as report:
-        keys = called(processes, machine)
+        keys = called(processes, machine, pages, margin)
         work, lacking = ready(planned(read_jobs(matching(recipes), overrides), Path(folder), formats, keys))
         for done in _made(work, jobs, as_json, report):
             report["recipes"].append(done)

@@ -29,6 +29,16 @@ _OPTIONS = (
         help='What a machine needs done first, as in "cut kerf=0.15mm"; several are done in turn.',
     ),
     click.option("--machine", metavar="NAME", help="The machine it is for: a profile's name, or FILE.toml."),
+    click.option(
+        "--pages",
+        type=click.Choice(["one", "tile"]),
+        help="HPGL larger than the machine's page is refused (one), or divided over several (tile).",
+    ),
+    click.option(
+        "--margin",
+        metavar="LENGTH",
+        help='Room around what HPGL draws, such as "4 mm": for what is cut beside it.',
+    ),
 )
 
 
@@ -39,7 +49,9 @@ def files_options(command: Callable[..., Any]) -> Callable[..., Any]:
     return command
 
 
-def called(processes: Sequence[str], machine: str | None) -> dict[str, Any]:
+def called(
+    processes: Sequence[str], machine: str | None, pages: str | None = None, margin: str | None = None
+) -> dict[str, Any]:
     """Return the keys of outputs that a call sets for all files."""
     keys: dict[str, Any] = {}
     if processes:
@@ -50,7 +62,25 @@ def called(processes: Sequence[str], machine: str | None) -> dict[str, Any]:
         from batik_vector.recipe.reading.machines import read_machine
 
         keys |= {"machine": machine, "machine_profile": read_machine(machine)}
+    if pages is not None:
+        from batik_vector.export.options import Pages
+
+        keys["pages"] = Pages(pages)
+    if margin is not None:
+        keys["margin"] = _length(margin)
     return keys
+
+
+def _length(text: str) -> float:
+    """Return a length of a call in mm; a bare number is one."""
+    from batik_vector.errors import Fault, GeometryError, RecipeError
+    from batik_vector.export.options import HpglOptions
+
+    try:
+        words: Any = float(text) if text.replace(".", "", 1).isdigit() else text
+        return HpglOptions(margin=words).margin
+    except GeometryError as error:
+        raise RecipeError([Fault(str(error), source="--margin")]) from None
 
 
 def tell_files(done: dict[str, Any]) -> None:

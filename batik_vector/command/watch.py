@@ -23,6 +23,8 @@ def watch_command(
     formats: Sequence[str],
     processes: Sequence[str],
     machine: str | None,
+    pages: str | None,
+    margin: str | None,
     overrides: Sequence[str],
     as_json: bool,
 ) -> None:
@@ -35,7 +37,7 @@ def watch_command(
 
     collecting()
     watched = Watched(recipe)
-    keys = called(processes, machine)
+    keys = called(processes, machine, pages, margin)
     _compiled(recipe, folder, formats, keys, overrides, as_json)
     click.echo(f"watching {', '.join(watched.files)}: Ctrl-C ends it", err=True)
     for changed in watched.changes():

@@ -6,7 +6,7 @@ import enum
 from dataclasses import field
 from typing import Annotated
 
-from batik_vector.fields import HIDDEN, Between, Length, Says, check
+from batik_vector.fields import HIDDEN, Between, Length, Says, belongs, check
 from batik_vector.machines.hpgl import Hpgl, Origin
 from batik_vector.machines.profile import Machine
 from batik_vector.values import frozen
@@ -227,3 +227,5 @@ class HpglOptions:
 
     def __post_init__(self) -> None:
         check(self)
+        if self.pages is not Pages.TILE:
+            belongs(self, ("overlap",), 'pages = "tile"')

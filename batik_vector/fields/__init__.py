@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from batik_vector.fields.fitting import bound, check, given, shown
+from batik_vector.fields.fitting import belongs, bound, check, given, shown
 from batik_vector.fields.marks import (
     HIDDEN,
     TAG,
@@ -41,6 +41,7 @@ __all__ = [
     "Text",
     "Unset",
     "Useful",
+    "belongs",
     "bound",
     "check",
     "given",

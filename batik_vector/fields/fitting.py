@@ -14,7 +14,7 @@ import numbers
 import operator
 import types
 import typing
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Annotated, Any, Literal, TypeAlias
 
 from batik_vector.errors import BatikError, GeometryError, unknown_name
@@ -68,6 +68,25 @@ def check(value: Any) -> None:
         fitted = _fitted(quick.fit, held, name)
         if fitted is not held:
             object.__setattr__(value, name, fitted)
+
+
+def belongs(value: Any, names: Sequence[str], to: str) -> None:
+    """Refuse fields of a dataclass instance that have been set and do nothing without another one.
+
+    Args:
+        value: the instance.
+        names: of the fields.
+        to: what they belong to, and is not there, as people are told of it.
+
+    Raises:
+        GeometryError: naming the first of them.
+    """
+    known = defaults(value)
+    for name in names:
+        held = getattr(value, name)
+        if held != known[name]:
+            said = f"{held:g}" if isinstance(held, float) else held
+            raise GeometryError(f"{name} = {said}, expected {to} beside it: it does nothing without")
 
 
 def given(value: Any, hint: Any, name: str) -> Any:

@@ -8,7 +8,7 @@ import os
 import time
 from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import replace
+from dataclasses import fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
@@ -106,11 +106,12 @@ def planned(
     plans: list[Job] = []
     faults: list[Fault] = []
     taken: dict[str, Job] = {}
+    unused = set(called or ())
     drawings = {each.path for job in jobs for _, each in drawings_of(job.recipe)}
     for job in jobs:
         files = []
         for output in _outputs(job.recipe, formats):
-            asked, output = output, replace(output, **called) if called else output
+            asked, output = output, _called(output, called or {}, unused)
             if fault := _unmet(job, output, _key_of(job, asked)):
                 faults.append(fault)
                 continue
@@ -123,9 +124,19 @@ def planned(
             _check_place(path, job, drawings)
             files.append((path, output))
         plans.append(replace(job, files=tuple(files)))
+    if jobs and not faults:
+        faults = [Fault(f"--{key}: no file that is made has it") for key in sorted(unused)]
     if faults:
         raise RecipeError(faults)
     return plans
+
+
+def _called(output: OutputSpec, called: Mapping[str, Any], unused: set[str]) -> OutputSpec:
+    """Return an output with those keys that the call sets and it has; they are ``unused`` no more."""
+    own = {each.name for each in fields(output)}
+    known = {key: value for key, value in called.items() if key in own}
+    unused.difference_update(known)
+    return replace(output, **known) if known else output
 
 
 def ready(jobs: Sequence[Job]) -> tuple[list[Job], list[MissingLibraryError]]:

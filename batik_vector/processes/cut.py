@@ -21,6 +21,10 @@ from batik_vector.processes.prepared import Prepared, Tool
 
 REGISTRATION = "registration"
 BLACK = "#000000"
+MAGENTA = "#ff00ff"
+"""What is seen on dark cloth, and on the white of a screen."""
+DARK = 3 * 80
+"""The sum of red, green and blue below which black is not seen on a cloth."""
 
 
 def apply(page: Page, spec: CutProcess, machine: Machine) -> Prepared:
@@ -41,7 +45,7 @@ def apply(page: Page, spec: CutProcess, machine: Machine) -> Prepared:
         facts.append({"tool": stock.ink.name, **found, "seconds": seconds, **sheet})
     sheeted = _sheeted(page, asked)
     if asked.registration is not None:
-        tools.append(_registration(sheeted.cell, asked))
+        tools.append(_registration(sheeted, asked))
     settings = {"kerf_mm": asked.kerf / 1000, "blade_offset_mm": asked.blade_offset / 1000}
     done = (*page.provenance.processes, str(spec))
     return Prepared(sheeted, tuple(tools), done, {"cut": {**settings, "tools": facts}})
@@ -55,8 +59,9 @@ def _sheeted(page: Page, asked: Told) -> Page:
     return Artwork(page.title, cell, (), page.cloth, page.tolerance, provenance=page.provenance)
 
 
-def _registration(cell: Cell, asked: Told) -> Tool:
+def _registration(page: Page, asked: Told) -> Tool:
     """Return crosses beside the page's corners, or within those of a sheet."""
     size = asked.registration or 0
-    box = Box(0, 0, cell.columns, cell.rows).grown(-size if asked.sheet else size)
-    return Tool(Ink(REGISTRATION, BLACK, HAIRLINE), crosses(box, size))
+    dark = sum(bytes.fromhex(page.cloth.removeprefix("#"))) < DARK
+    box = Box(0, 0, page.cell.columns, page.cell.rows).grown(-size if asked.sheet else size)
+    return Tool(Ink(REGISTRATION, MAGENTA if dark else BLACK, HAIRLINE), crosses(box, size))

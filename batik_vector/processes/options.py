@@ -15,7 +15,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self, TypeAlias
 
 from batik_vector.errors import GeometryError
-from batik_vector.fields import Between, Length, OneOf, Says, check
+from batik_vector.fields import Between, Length, OneOf, Says, belongs, check
 from batik_vector.processes.cutting.choices import Inks, Keep, LineBodies, Narrow, Start, Turns
 from batik_vector.processes.hatching.options import AnyHatch
 from batik_vector.processes.stencilling.choices import Backing
@@ -257,6 +257,12 @@ class CutProcess(StrokeProcess):
         super().__post_init__()
         if self.sheet_number is not None and self.sheet is None:
             raise GeometryError(f"sheet_number = {self.sheet_number}, expected the size of a sheet beside it")
+        if self.sheet is None:
+            belongs(self, ("gap", "turns"), "sheet, on which pieces are nested,")
+        if not self.tabs and self.tab_spacing is None:
+            belongs(self, ("tab_length",), "tabs or tab_spacing")
+        if self.weed_lines is None:
+            belongs(self, ("weed_margin",), "weed_lines")
 
 
 Spout = Annotated[Length, Between(0.1, 50)]

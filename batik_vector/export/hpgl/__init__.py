@@ -162,8 +162,10 @@ class _HpglSurface:
             unit = self._plan.frame.unit
             # A tenth of a mm more than is needed, so that the number is a short one.
             needed = self._options.margin + -(-over * unit // 100_000) / 10
+            known = self._plan.paper is not None
+            beyond = "what the machine can draw on" if known else "the origin, to the left or below"
             raise UnsupportedByFormatError(
-                f"strokes go {format_mm(over * unit / 1_000_000)} mm beyond what the machine can draw on, "
+                f"strokes go {format_mm(over * unit / 1_000_000)} mm beyond {beyond}, "
                 f'as they stand outside the drawing: expected margin = "{format_mm(needed)} mm", or more'
             )
 

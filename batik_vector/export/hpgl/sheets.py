@@ -129,8 +129,11 @@ def _unlimited(frame: Frame, options: HpglOptions) -> Plan:
         raise UnsupportedByFormatError(
             'pages = "tile" needs to know the page: expected page, as "420 x 297 mm", or a machine with some'
         )
-    shift = _centred(frame, (0, 0, 0, 0)) if _is_centred(options) else (0, 0)
-    return Plan(frame, None, (Sheet((1, 1), shift, None, None, ()),))
+    if _is_centred(options):
+        return Plan(frame, None, (Sheet((1, 1), _centred(frame, (0, 0, 0, 0)), None, None, ()),))
+    # Whatever its sheet is, a machine that counts from its corner comes to nothing below 0.
+    limits = (0, 0, FARTHEST, FARTHEST)
+    return Plan(frame, None, (Sheet((1, 1), (0, 0), None, limits, ()),))
 
 
 def _extent(page: Page, margin: float) -> tuple[tuple[int, int], tuple[int, int]]:

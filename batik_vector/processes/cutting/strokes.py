@@ -124,7 +124,8 @@ def _left_uncut(regions: Geometries, kerf: int) -> float:
     """Return the area of the corners and gaps into which a beam does not come, in mm²."""
     grown = np.asarray(shapely.buffer(regions, kerf / 2, quad_segs=ROUND), dtype=object)
     near = meeting(grown)
-    grown = np.append(grown[~near], shapely.union_all(grown[near]))
+    one = np.array([shapely.union_all(grown[near])], dtype=object)
+    grown = np.concatenate([grown[~near], one])
     back = shapely.area(shapely.buffer(grown, -kerf / 2, quad_segs=ROUND))
     left = float(back.sum() - shapely.area(regions).sum())
     return round(max(left, 0.0) / STEPS_PER_MM**2, 3)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from batik_vector.fields import belongs
 from batik_vector.processes.cutting.choices import Inks, Keep, LineBodies, Narrow, Start, Turns
 from batik_vector.units import STEPS_PER_MM
 from batik_vector.values import frozen
@@ -65,6 +66,8 @@ def told(spec: CutProcess, tolerance: float) -> Told:
         tolerance: how far drawn edges may stand from the true curves, in mm.
     """
     blade = spec.blade_offset or 0.0
+    if not blade:
+        belongs(spec, ("swivel", "precut"), "blade_offset, or a machine with a drag knife,")
     start = spec.start or (Start.STRAIGHT if blade else Start.NEAREST)
     return Told(
         inks=spec.inks,

@@ -9,6 +9,7 @@ from typing import Annotated, Any
 
 from batik_vector.errors import Fault, RecipeError
 from batik_vector.fields import Alone
+from batik_vector.processes.hatching.options import HATCHES
 from batik_vector.processes.options import AnyProcess, ProcessSpec
 from batik_vector.recipe.reading.overrides import parsed_value
 from batik_vector.recipe.reading.tables import values_of
@@ -92,4 +93,9 @@ def _words(text: str) -> list[str]:
 
 
 def _without_root(fault: Fault) -> Fault:
-    return Fault(fault.message, fault.key.removeprefix("process").removeprefix("."), fault.source)
+    """Return a fault as the call has it: without the key of processes, and tables by their keys."""
+    key, message = fault.key.removeprefix("process").removeprefix("."), fault.message
+    name = re.fullmatch(r'"([a-z-]+)", expected a table with a kind', message)
+    if key == "hatch" and name and name[1] in HATCHES:
+        message += f", as {key}.kind={name[1]} makes it"
+    return Fault(message, key, fault.source)

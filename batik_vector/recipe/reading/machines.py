@@ -95,7 +95,9 @@ def _machine(name: str, folder: str | None, carried: str | None) -> tuple[str, M
             words = unknown_name(name, MACHINES, "machine")
             raise RecipeError([Fault(f"{words} (a profile of your own is a file: mine.toml)")])
         return "", values_of(Machine, tables_of(shipped_text(name), name, EMPTY), name, shipped_text(name))
-    text = decoded(read_beside(name, folder, TOML_FILE, MAX_TEXT)[0], name) if carried is None else carried
+    text = carried
+    if text is None:
+        text = decoded(read_beside(name, folder, TOML_FILE, MAX_TEXT)[0], name, TOML_FILE.words)
     data = tables_of(text, name, EMPTY)
     return _spelled(data), values_of(Machine, _based(data, name, text), name, text)
 

@@ -101,7 +101,7 @@ def _from_text(path: str | os.PathLike[str], source: str) -> str:
     return decoded(data, source)
 
 
-def decoded(data: bytes, source: str) -> str:
+def decoded(data: bytes, source: str, expected: str = "a recipe in TOML") -> str:
     """Return bytes as text with the line ends of Unix.
 
     Raises:
@@ -112,9 +112,7 @@ def decoded(data: bytes, source: str) -> str:
         text = data.decode("utf-8")
     except UnicodeDecodeError as error:
         line = data.count(b"\n", 0, error.start) + 1
-        raise RecipeError(
-            [Fault("is no text in UTF-8, expected a recipe in TOML", "", source, line)]
-        ) from error
+        raise RecipeError([Fault(f"is no text in UTF-8, expected {expected}", "", source, line)]) from error
     return text.replace("\r\n", "\n")
 
 

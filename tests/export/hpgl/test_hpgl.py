@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from shapely.geometry.base import BaseGeometry
 
 from batik_vector.artwork import Artwork, Cell, Ink, Layer
-from batik_vector.errors import ExportError
+from batik_vector.errors import ExportError, GeometryError
 from batik_vector.export import HpglOptions, Pages, Turn, render
 from batik_vector.export.hpgl import parts
 from batik_vector.export.hpgl.sheets import crosses, planned
@@ -218,6 +218,24 @@ def test_strokes_outside_the_drawing_are_not_cut_off_unseen() -> None:
         render(beyond, "hpgl", HpglOptions(device=device), check=False)
     found = plotted(render(beyond, "hpgl", HpglOptions(device=device, margin=1), check=False))
     assert found.bounds == (0, 240, 240, 240)
+
+
+def test_without_a_known_page_nothing_is_written_below_the_origin() -> None:
+    art = flag()
+    beyond = replace(art, layers=(Layer(Ink("i", "#000"), lines=geometries(line((-1, 5), (5, 5)))),))
+    with pytest.raises(ExportError, match=r'go 1 mm beyond the origin.*: expected margin = "1 mm", or more'):
+        render(beyond, "hpgl", HpglOptions(), check=False)
+    found = plotted(render(beyond, "hpgl", HpglOptions(margin=1), check=False))
+    assert found.bounds == (0, 240, 240, 240)
+    # Counted from the middle of a sheet, half of all lies below.
+    centred = plotted(render(beyond, "hpgl", HpglOptions(place=Origin.CENTRE), check=False))
+    assert centred.bounds[0] < 0
+
+
+def test_an_overlap_belongs_to_pages() -> None:
+    with pytest.raises(GeometryError, match=r'overlap = 5, expected pages = "tile" beside it'):
+        HpglOptions(overlap=5)
+    assert HpglOptions(overlap=5, pages=Pages.TILE).overlap == 5
 
 
 def test_the_margin_that_would_do_is_that_of_all_pens() -> None:

@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import json
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -200,6 +201,12 @@ def test_registration_marks_have_a_layer_of_their_own() -> None:
     assert len(marks.strokes) == 8
     assert marks.strokes.bounds()[:, :2].min(axis=0).tolist() == [-9000, -9000]
     assert len(cutting.strokes) == 2
+
+
+@pytest.mark.parametrize(("cloth", "seen"), [("#ffffff", "#000000"), ("#1b2a4a", "#ff00ff")])
+def test_registration_marks_are_seen_on_the_cloth(cloth: str, seen: str) -> None:
+    _, marks = cut(replace(artwork([PLATE]), cloth=cloth), registration=6.0).tools
+    assert marks.ink.colour == seen
 
 
 def pieces(number: int) -> list[shapely.Polygon]:

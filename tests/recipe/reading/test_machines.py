@@ -139,7 +139,12 @@ def test_tables_stand_in_braces_or_have_dots() -> None:
         ("cut sheet=[300,200", "expected a process"),
         ("cut kerf = 1", '"kerf", expected KEY=VALUE'),
         ("cut kerf=1 kerf=2", "kerf: has a value already"),
-        ("plot hatch=spiral", 'hatch: "spiral", expected a table with a kind'),
+        ("plot hatch=spiral", "expected a table with a kind, as hatch.kind=spiral makes it"),
+        ("plot hatch=spirall", 'hatch: "spirall", expected a table with a kind'),
+        ("cut gap=2", "gap: 2, expected sheet, on which pieces are nested, beside it: it does nothing"),
+        ("cut turns=none", "turns: none, expected sheet"),
+        ("cut tab_length=1mm", "tab_length: 1, expected tabs or tab_spacing beside it"),
+        ("cut weed_margin=2mm", "weed_margin: 2, expected weed_lines beside it"),
         ("cut sheet_number=2", "sheet_number: 2, expected the size of a sheet beside it"),
     ],
 )
