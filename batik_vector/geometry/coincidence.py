@@ -9,6 +9,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from batik_vector.geometry import work
 from batik_vector.geometry.maps.affine import SIMILAR, Affine
 from batik_vector.geometry.maps.affines import Affines
 from batik_vector.geometry.sampling import Array, Geometries, Indices
@@ -155,18 +156,24 @@ def drawn_once(geometries: Geometries, reach: float) -> Indices:
 
     Two geometries are the same drawing when every vertex of each lies within ``reach`` of the other's
     edges. Only those whose bounds agree are compared, so a large drawing costs one query of a tree.
+
+    Raises:
+        TooLargeError: where too many are as small as ``reach``, and lie at one place.
     """
     count = len(geometries)
     bounds = shapely.bounds(geometries)
     corner, opposite = bounds[:, :2], bounds[:, 2:]
     points = _points(corner)
-    later, earlier = shapely.STRtree(points).query(points, predicate="dwithin", distance=2 * reach)
+    tree = shapely.STRtree(points)
+    work.refuse_pairs(tree, points, within=2 * reach)
+    later, earlier = tree.query(points, predicate="dwithin", distance=2 * reach)
     alike = earlier < later
     alike &= (np.abs(opposite[later] - opposite[earlier]) <= reach * 2).all(axis=1)
     size, length = shapely.area(geometries), shapely.length(geometries)
     alike &= np.abs(size[later] - size[earlier]) <= 2 * reach * (length[later] + length[earlier])
     alike &= _areal(geometries)[later] == _areal(geometries)[earlier]
     pairs = np.column_stack([later[alike], earlier[alike]])
+    work.spend_on_pairs(len(pairs))
     drawn = np.zeros(count, bool)
     for j, i in pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))].tolist():
         if not drawn[j] and not drawn[i] and _same(geometries[i], geometries[j], reach):

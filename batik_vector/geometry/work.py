@@ -11,6 +11,7 @@ import contextlib
 import contextvars
 import math
 from collections.abc import Iterator, Sequence
+from typing import Any
 
 import numpy as np
 import shapely
@@ -269,12 +270,13 @@ def _close_strands(shapes: Geometries, reach: float) -> float:
     return float(close * len(xy) / min(len(xy), SAMPLED) / 2 * share)
 
 
-def refuse_pairs(tree: shapely.STRtree, boxes: Geometries) -> None:
+def refuse_pairs(tree: shapely.STRtree, boxes: Geometries, within: float = 0.0) -> None:
     """Raise where far more shapes meet than can be looked at.
 
     Args:
         tree: of the bounds of some shapes.
         boxes: bounds of others.
+        within: how far apart two are that count as meeting; if 0, their bounds must meet.
 
     Raises:
         TooLargeError: with how many pairs there would be, about.
@@ -282,7 +284,8 @@ def refuse_pairs(tree: shapely.STRtree, boxes: Geometries) -> None:
     if len(tree) * len(boxes) <= MAX_PAIRS:
         return
     asked = _some(len(boxes), 8 * SAMPLED)
-    pairs = tree.query(boxes[asked]).shape[1] * len(boxes) / len(asked)
+    near: dict[str, Any] = {"predicate": "dwithin", "distance": within} if within else {}
+    pairs = tree.query(boxes[asked], **near).shape[1] * len(boxes) / len(asked)
     if pairs > MAX_PAIRS:
         raise TooLargeError(
             f"{len(boxes):,} shapes meet about {_about(pairs)} times, past the limit of {MAX_PAIRS:,}: "

@@ -181,3 +181,13 @@ def test_stretch_bounds_what_a_small_error_becomes() -> None:
             worst = np.maximum(worst, np.linalg.norm(ends[1] - ends[0], axis=1) / 1e-7)
     assert (worst <= ifs.stretch(points) * 1.001).all()
     assert (ifs.stretch(points) <= worst * 4).all()
+
+
+def test_marks_too_small_to_be_told_apart_are_refused_before_all_are_compared() -> None:
+    """Contours of contours are crumbs, hundreds of thousands of them at one place."""
+    x, y = np.random.default_rng(0).uniform(0, 1e-3, (2, 5_000))
+    crumbs = shapely.box(x, y, x + 1e-4, y + 1e-4)
+    with pytest.raises(TooLargeError, match=r"5,000 shapes meet about 25,000,000 times"):
+        drawn_once(crumbs, 0.01)
+    assert drawn_once(crumbs[:100], 0.01).tolist() == [0]
+    assert len(drawn_once(crumbs, 1e-9)) == 5_000
