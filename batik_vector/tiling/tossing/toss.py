@@ -40,6 +40,16 @@ ROUNDS = 3
 USUAL_COVER = 0.62
 """Share of the repeat that marks and half the distance round each cover when no more fit: about."""
 
+DENSEST = math.pi / math.sqrt(12)
+"""Share of a plane that equal discs cover when they lie as close as they can: Thue's theorem."""
+
+CLOSEST, CLOSEST_DISCS = 0.85, 0.65
+"""Shares of the repeat that no toss of many marks covers, with half the distance round each, and that the
+largest discs in them do not: discs came to 0.52 with the most darts and settling."""
+
+MANY = 24
+"""Marks from which chance decides, and not how a few happen to fit into the repeat."""
+
 NARROWING = 0.72
 """What is left of the early distances from one throw to the next."""
 
@@ -140,7 +150,7 @@ def toss(spec: Toss, marks: Marks, torus: Torus, taken: Field, seed: int) -> Tos
     outlines = np.array([outline(body, spec.distance, marks.slack) for body in bodies], dtype=object)
     kit = Kit.of(_whole(as_steps(outlines)))
     _refuse_too_many(spec, kit, torus)
-    _refuse_impossible(spec, marks, torus)
+    _refuse_impossible(spec, kit, torus)
     scatter = Scatter(torus, kit, spec.size[1] / spec.size[0], taken)
     darts = _filled(scatter, spec, marks, Dice(seed if spec.seed is None else spec.seed))
     _check_count(spec, scatter, marks)
@@ -171,19 +181,26 @@ def _refuse_too_many(spec: Toss, kit: Kit, torus: Torus) -> None:
         )
 
 
-def _refuse_impossible(spec: Toss, marks: Marks, torus: Torus) -> None:
-    """Refuse a count for which the repeat has not the area; others are tried, and told when they fail."""
+def _refuse_impossible(spec: Toss, kit: Kit, torus: Torus) -> None:
+    """Refuse a count that cannot fit, or that no toss comes near; others are tried, and told when they fail.
+
+    Outlines grown by half the distance stay apart, and so do the largest discs within them, whatever their
+    size above the least; equal discs cover no more than π/√12 of a plane.
+    """
     if spec.count is None or torus.stretch is not None:
         return
-    # Marks grown by half the distance stay apart, whatever their size above the least.
-    grown = shapely.area(shapely.buffer(marks.bodies, spec.distance / 2, quad_segs=4))
-    each = float(grown.min()) * STEPS_PER_MM**2 * len(torus.operations)
-    most = int(torus.area / each)
+    images = len(torus.operations)
+    half = spec.distance * STEPS_PER_MM / 2
+    grown = float(shapely.area(shapely.buffer(kit.outlines, half, quad_segs=4)).min())
+    discs = math.pi * float(kit.radii[:, 0].min() + half) ** 2
+    by_area, by_discs = torus.area / grown / images, torus.area / discs / images
+    at = f"at a distance of {format_mm(spec.distance)} mm, expected fewer, or smaller marks"
+    most = int(min(by_area, by_discs * DENSEST))
     if 0 < most < spec.count:
-        raise GeometryError(
-            f"count = {spec.count}: by their area alone no more than {most} fit at a distance of "
-            f"{format_mm(spec.distance)} mm, expected fewer, or smaller marks"
-        )
+        raise GeometryError(f"count = {spec.count}: by their area alone no more than {most} fit {at}")
+    most = int(min(by_area * CLOSEST, by_discs * CLOSEST_DISCS))
+    if spec.count >= MANY and most < spec.count:
+        raise GeometryError(f"count = {spec.count}: no toss is so close that more than {most} fit {at}")
 
 
 def _rules(spec: Toss, motifs: int) -> Rules:

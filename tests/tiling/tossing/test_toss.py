@@ -229,19 +229,43 @@ def test_marks_do_not_nest_in_holes_and_notches_of_others() -> None:
     assert shapely.distance(drawn(after, [DOT]), middle).min() > 8
 
 
-def test_marks_of_more_area_than_the_repeat_are_refused_before_any_is_thrown(
-    monkeypatch: pytest.MonkeyPatch,
+@pytest.mark.parametrize(
+    ("count", "shape", "words"),
+    [
+        (500, BEAN, r"by their area alone no more than 26 fit"),
+        # Of discs no more lie in a plane than in the densest lattice, and chance comes not near that.
+        (94, shapely.Point(0, 0).buffer(2), r"by their area alone no more than 6\d fit"),
+        (60, shapely.Point(0, 0).buffer(2), r"no toss is so close that more than 4\d fit"),
+    ],
+)
+def test_counts_that_cannot_fit_are_refused_before_any_is_thrown(
+    monkeypatch: pytest.MonkeyPatch, count: int, shape: shapely.Polygon, words: str
 ) -> None:
     monkeypatch.delattr("batik_vector.tiling.tossing.toss.thrown")
-    with pytest.raises(GeometryError, match=r"count = 500: by their area alone no more than 27 fit"):
-        toss(Toss(count=500), marks(BEAN), torus(), NOTHING, 1)
+    with pytest.raises(GeometryError, match=f"count = {count}: {words} at a distance of 1 mm"):
+        toss(Toss(count=count), marks(shape), torus(), NOTHING, 1)
+
+
+@pytest.mark.parametrize(
+    ("count", "side"),
+    [
+        # One disc that all but fills the repeat, and the first count at which chance decides.
+        (1, 10.2),
+        (24, 55.0),
+    ],
+)
+def test_what_can_fit_is_tried(count: int, side: float) -> None:
+    disc = shapely.Point(0, 0).buffer(4)
+    cell = Cell(round(side * 1000), round(side * 1000))
+    tossed = toss(Toss(count=count, tries=5000), marks(disc), torus(cell), NOTHING, 1)
+    assert sum(tossed.report.counts) == count
 
 
 def test_what_cannot_fit_is_refused_with_what_does() -> None:
-    with pytest.raises(GeometryError, match=r"count = 26: only (\d+) fit") as caught:
-        toss(Toss(count=26, tries=200, settle=0), marks(BEAN), torus(), NOTHING, 1)
+    with pytest.raises(GeometryError, match=r"count = 22: only (\d+) fit") as caught:
+        toss(Toss(count=22, tries=200, settle=0), marks(BEAN), torus(), NOTHING, 1)
     fit = int(str(caught.value).split("only ")[1].split(" fit")[0])
-    assert 8 < fit < 40
+    assert 8 < fit < 22
     assert f"at most {fit}" in str(caught.value)
     with pytest.raises(GeometryError, match="only 36 mm round"):
         toss(Toss(distance=37), marks(BEAN), torus(), NOTHING, 1)
