@@ -8,7 +8,9 @@ from __future__ import annotations
 
 import asyncio
 import multiprocessing
+import os
 import signal
+import threading
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
@@ -39,9 +41,7 @@ class Aside:
         """
         async with self._turn:
             if self._pool is None:
-                self._pool = ProcessPoolExecutor(
-                    1, multiprocessing.get_context("spawn"), signal.signal, (signal.SIGINT, signal.SIG_IGN)
-                )
+                self._pool = ProcessPoolExecutor(1, multiprocessing.get_context("spawn"), _begin)
             work = asyncio.wrap_future(self._pool.submit(function, *args, **kwargs))
             try:
                 return await asyncio.wait_for(work, patience)
@@ -59,3 +59,17 @@ class Aside:
             for process in list((pool._processes or {}).values()):
                 process.kill()
             pool.shutdown(wait=False, cancel_futures=True)
+
+
+def _begin() -> None:
+    """Be deaf to Ctrl-C, and end with the studio, however that ends."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    parent = multiprocessing.parent_process()
+
+    def wait() -> None:
+        # Whoever holds a queue never hears that the other end has gone.
+        if parent is not None:
+            parent.join()
+            os._exit(0)
+
+    threading.Thread(target=wait, daemon=True).start()

@@ -38,6 +38,7 @@ def opened_session(recipe: str | None) -> Session:
     """
     if importlib.util.find_spec("nicegui") is None:
         raise StudioError("the studio needs NiceGUI: pip install 'batik-vector[studio]'")
+    from batik_vector.library import Library
     from batik_vector.studio.drafts import Draft
     from batik_vector.studio.journal import InUseError, Journal
     from batik_vector.studio.page.session import Session
@@ -49,7 +50,10 @@ def opened_session(recipe: str | None) -> Session:
             if not kept.in_use:
                 with contextlib.suppress(InUseError):
                     return Session(journal.restore(kept.key))
-    return Session(journal.begin(Draft.read(recipe or BEGUN)))
+    with Library():
+        # Where it was not there it is begun.
+        draft = Draft.read(recipe or BEGUN)
+    return Session(journal.begin(draft))
 
 
 def listening(port: int) -> socket.socket:

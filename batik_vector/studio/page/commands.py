@@ -57,14 +57,13 @@ class Commands:
     def menus(self) -> None:
         """Draw the menus."""
         for title, rows in MENUS.items():
-            with word_button(title).props("aria-haspopup=menu").classes("menu-name"):
-                with ui.menu().props("role=menu auto-close") as menu:
-                    menu.props(f'aria-label="{title}"')
-                    for row in rows:
-                        if row is None:
-                            ui.separator()
-                        else:
-                            self._item(*row)
+            button = word_button(title).props("aria-haspopup=menu").classes("menu-name")
+            with button, ui.menu().props(f'role=menu auto-close aria-label="{title}"'):
+                for row in rows:
+                    if row is None:
+                        ui.separator()
+                    else:
+                        self._item(*row)
 
     def _item(self, label: str, name: str, key: str) -> None:
         with ui.item(on_click=self.do(name)).props("dense clickable role=menuitem") as item:
