@@ -27,7 +27,7 @@ from batik_vector.artwork import Page
 from batik_vector.export import PngOptions, render
 from batik_vector.library import included
 from batik_vector.library.measuring import measured
-from batik_vector.making.pages import prepared
+from batik_vector.making.pages import Latest, done_to_tile, prepared
 from batik_vector.recipe.outputs import PngOutput
 from batik_vector.tiling.cloth.field import repeated
 from batik_vector.tiling.cloth.yardage import Yardage
@@ -69,6 +69,10 @@ class Sample:
         page: Page = self.page
         if isinstance(page, Artwork):
             own = next((each for each in self.recipe.output if isinstance(each, PngOutput)), None)
+            if own is not None:
+                made, own, _ = done_to_tile(page, page, own, Latest(), lambda tile: tile)
+                assert isinstance(made, Artwork)
+                page = made
             page = repeated(page, *own.repeat if own else repeats(page.cell.width / page.cell.height))
             if own is not None:
                 page = prepared(page, own)[0]

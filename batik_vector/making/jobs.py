@@ -34,6 +34,7 @@ from batik_vector.making.pages import (
     drawings_of,
     piece_of,
     render_output,
+    renumbered,
     size_of,
 )
 from batik_vector.recipe.loading import load_recipe, located
@@ -295,12 +296,16 @@ def run(job: Job, tell: Callable[[str], None], look: Callable[[Page], None] | No
         page: Page | None = cloth if piece_of(recipe, output) == Piece.YARDAGE else tile
         if page is not None:
             with _on_behalf(job, key := _key_of(job, output)):
+                total = len(output.process)
                 page, output, before = done_to_tile(tile, page, output, latest, filled)
-                parts = divided(page, output, latest)
+                with renumbered(first := total - len(output.process), total):
+                    parts = divided(page, output, latest)
             for part in (part.after(before) for part in parts):
                 place = path.with_name(f"{path.stem}{part.ending}{path.suffix}")
                 size = size_of(page, output)
-                writers.append((place, _writer(job, place, key, part, size, tell, reports, latest)))
+                writers.append(
+                    (place, _writer(job, place, key, part, size, tell, reports, latest, (first, total)))
+                )
             notes += page_warnings(path, output, page)
     _check_apart(job, writers)
     _write(writers)
@@ -337,13 +342,14 @@ def _writer(
     tell: Callable[[str], None],
     reports: list[dict[str, Any]],
     latest: Latest,
+    among: tuple[int, int],
 ) -> Callable[[BinaryIO], None]:
-    """Return what writes a file, and reports that it has."""
+    """Return what writes a file, and reports that it has; ``among`` tells which of all processes are left."""
 
     def write(sink: BinaryIO) -> None:
         begun = time.perf_counter()
         tell(f"writing {path.name}")
-        with _on_behalf(job, key):
+        with _on_behalf(job, key), renumbered(*among):
             facts = render_output(part.page, part.output, sink, latest)
         if part.facts is not None:
             facts = {**part.facts, **facts}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
@@ -104,10 +105,33 @@ def done_to_tile(
     if tile is None:
         words = f'"{output.process[0].kind}" is done to the tile, and the recipe has borders alone'
         raise RecipeError([Fault(words, "process")])
-    done, facts = latest.through(tile, replace(output, process=output.process[:first]))
+    with renumbered(0, len(output.process)):
+        done, facts = latest.through(tile, replace(output, process=output.process[:first]))
     assert isinstance(done, Artwork)
     made = done if page is tile else filled(done)
     return made, replace(output, process=output.process[first:]), facts
+
+
+@contextmanager
+def renumbered(before: int, total: int) -> Iterator[None]:
+    """Give faults of some of an output's processes the keys that these have among all.
+
+    Args:
+        before: how many stand before them.
+        total: how many there are.
+    """
+    try:
+        yield
+    except RecipeError as error:
+
+        def key(found: re.Match[str]) -> str:
+            return f"process[{before + int(found[1] or 0)}]" if total > 1 else "process"
+
+        faults = [replace(each, key=_PROCESS.sub(key, each.key)) for each in error.faults]
+        raise RecipeError(faults) from error
+
+
+_PROCESS = re.compile(r"^process\b(?:\[(\d+)\])?")
 
 
 def divided(page: Page, output: OutputSpec, latest: Latest) -> list[Part]:

@@ -96,17 +96,18 @@ def orbits_of(spans: Spans, sheet: Sheet, symmetry: Symmetry, breadth: float) ->
         mine = _different(centres[:, number], torus)
         bridges = tuple(
             Bridge(
-                (float(centres[k, number, 0]), float(centres[k, number, 1])),
-                (float(ways[k, number, 0]), float(ways[k, number, 1])),
-                -float(reach[number]),
-                float(reach[number]),
+                _rounded(centres[k, number], 3),
+                _rounded(ways[k, number], 9),
+                -round(float(reach[number]), 3),
+                round(float(reach[number]), 3),
                 int(part[k, number, 0]),
                 int(part[k, number, 1]),
                 _less(gain[k, number, 1], gain[k, number, 0]),
             )
             for k in mine
         )
-        found.append(Orbit(bridges, float(spans.cost[number]) * len(bridges), bool(fine[number])))
+        cost = round(float(spans.cost[number]), 3) * len(bridges)
+        found.append(Orbit(bridges, cost, bool(fine[number])))
     return found
 
 
@@ -119,6 +120,12 @@ def _leave_room(spans: Spans, sheet: Sheet, breadth: float) -> NDArray[np.bool_]
     part, _ = _parts_at((on + sides).reshape(-1, 2), sheet)
     opened = (part < 0).reshape(2, len(spans), len(BESIDE)).sum(axis=2)
     return np.asarray((opened == len(BESIDE)).all(axis=0))
+
+
+def _rounded(place: Points, digits: int) -> tuple[float, float]:
+    """Return a place without the last bits of its floats, which are not the same on every machine."""
+    x, y = np.round(place, digits).tolist()
+    return x, y
 
 
 def _less(one: Steps, other: Steps) -> Gain:

@@ -11,7 +11,7 @@ import shapely
 from numpy.typing import NDArray
 
 from batik_vector.geometry.outlines import Index, Steps
-from batik_vector.geometry.sampling import Array, Points
+from batik_vector.geometry.sampling import Array, Geometries, Points
 from batik_vector.processes.stencilling.clusters import Clusters
 from batik_vector.processes.stencilling.contours import Field, Places
 from batik_vector.processes.stencilling.sheets import Torus
@@ -167,7 +167,7 @@ def shortened(gaps: Gaps, field: Field, piece: Index, reach: float) -> Gaps:
     ends = np.stack([gaps.middle - half, gaps.middle + half])
     for _ in range(GOINGS):
         sides = [
-            _near(place, of, field, piece, reach)
+            near_contours(place, of, field, piece, reach)
             for place, of in zip(ends, (gaps.one, gaps.other), strict=True)
         ]
         found = ~(shapely.is_empty(sides[0]) | shapely.is_empty(sides[1]))
@@ -185,7 +185,9 @@ def shortened(gaps: Gaps, field: Field, piece: Index, reach: float) -> Gaps:
     return together([Gaps(middle, way, length, one, other), Gaps(slid, way, length, one, other)])
 
 
-def _near(places: Points, of: Index, field: Field, piece: Index, reach: float) -> Array:
+def near_contours(
+    places: Points, of: Index, field: Field, piece: Index | Array, reach: float | Array
+) -> Geometries:
     """Return of each piece the contours near a place, as one geometry each."""
     row, chain = field.tree.query(shapely.points(places), predicate="dwithin", distance=reach)
     mine = piece[chain] == of[row]

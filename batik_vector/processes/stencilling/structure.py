@@ -8,9 +8,9 @@ import shapely
 from batik_vector.artwork import Cell
 from batik_vector.geometry.outlines import Index
 from batik_vector.geometry.sampling import Array, Geometries
-from batik_vector.processes.stencilling.contours import Places, contours_of, places_on
-from batik_vector.processes.stencilling.gaps import facing, pieces_at, triangulated
-from batik_vector.processes.stencilling.planning import Plan
+from batik_vector.processes.stencilling.contours import Field, Places, contours_of, field_of, places_on
+from batik_vector.processes.stencilling.gaps import facing, near_contours, pieces_at, triangulated
+from batik_vector.processes.stencilling.planning import STRAIGHT, Plan
 from batik_vector.processes.stencilling.sheets import Sheet, sheet_of
 from batik_vector.values import frozen
 
@@ -18,6 +18,10 @@ ROUND = 4.0
 """Breadths of a place that the way round it, along the contour, is long at least: else it is a point."""
 STEEP = 0.5
 """Sine of the angle at which the way across stands on the contour, at least."""
+MEASURED = 400
+"""Places that are measured, those that look narrowest."""
+NEAR = 0.4
+"""Breadths of a place about its ends within which their contours are measured."""
 SPACING = 0.25
 """Breadths of a bridge between places on the contour."""
 
@@ -58,7 +62,7 @@ def narrowest_member(sheet: Sheet, breadth: float) -> Member | None:
         return None
     cell = sheet.torus.cell
     reach = float(min(max(cell.columns, cell.rows), 8 * breadth))
-    places = places_on(contours, SPACING * breadth, 0.02 * breadth, reach)
+    places = places_on(contours, SPACING * breadth, STRAIGHT * breadth, reach)
     edges = triangulated(places)
     piece = pieces_at(sheet.clusters, places.part, places.gain, {})
     edges = edges[piece[edges[:, 0]] == piece[edges[:, 1]]]
@@ -71,11 +75,34 @@ def narrowest_member(sheet: Sheet, breadth: float) -> Member | None:
     if not len(edges):
         return None
     ways = places.points[edges[:, 1]] - places.points[edges[:, 0]]
-    # Places lie beside one another on both sides: the way straight across is what counts.
+    # Places lie beside one another on both sides: the way straight across says which are worth measuring.
     straight = np.abs(_cross(places.heading[edges[:, 0]], ways))
-    least = int(np.argmin(np.round(straight, 3)))
-    x, y = places.points[edges[least]].mean(axis=0).tolist()
-    return Member(x, y, float(straight[least]))
+    order = np.argsort(np.round(straight, 3), kind="stable")[:MEASURED]
+    edges, straight = edges[order], straight[order]
+    lines = _shortest(places, edges, field_of(contours, reach + SPACING * breadth))
+    length = shapely.length(lines)
+    # Where the two ends all but meet there is nothing to measure between them.
+    close = np.sqrt((ways[order] ** 2).sum(axis=1)) * NEAR < 2 * STRAIGHT * breadth
+    rough = close | ~np.isfinite(length)
+    length = np.where(rough, straight, length)
+    least = int(np.argmin(np.round(length, 3)))
+    ends = places.points[edges[least]] if rough[least] else shapely.get_coordinates(lines[least])
+    x, y = ends.mean(axis=0).tolist()
+    return Member(x, y, float(length[least]))
+
+
+def _shortest(places: Places, edges: Index, field: Field) -> Geometries:
+    """Return the shortest lines across the sheet near some edges."""
+    ways = places.points[edges[:, 1]] - places.points[edges[:, 0]]
+    # Near enough that the contours about the two ends stay apart.
+    reach = np.sqrt((ways**2).sum(axis=1)) * NEAR
+    sides = [
+        near_contours(
+            places.points[ends], np.zeros(len(edges), np.intp), field, np.zeros(len(field.part)), reach
+        )
+        for ends in edges.T
+    ]
+    return np.asarray(shapely.shortest_line(*sides), dtype=object)
 
 
 def _across(places: Places, edges: Index) -> Array:

@@ -74,7 +74,7 @@ def test_sheets_are_one_piece_and_no_bridge_is_needless(seed: int) -> None:
         return
     for each in bridges(tile, stencil):
         left = without(stencil, [each])
-        assert max(on_torus(left, tile.cell), endless(left, tile.cell)) > 1
+        assert on_torus(left, tile.cell) > 1 or endless(left, tile.cell) > 1
     whole = shapely.union_all(areas)
     for place in sheet(stencil)["places"]:  # type: ignore[attr-defined]
         assert shapely.distance(shapely.Point(place), whole) >= BRIDGE / 2 - 0.002
@@ -82,7 +82,7 @@ def test_sheets_are_one_piece_and_no_bridge_is_needless(seed: int) -> None:
 
 @long
 @pytest.mark.parametrize("name", ["p4m", "p6m", "p4g", "pgg", "cmm"])
-@settings(max_examples=examples(1, 16), deadline=None, derandomize=True)
+@settings(max_examples=examples(1, 8), deadline=None, derandomize=True)
 @given(seed=st.integers(0, 100_000))
 def test_bridges_have_the_group(name: str, seed: int) -> None:
     tile = symmetric_tile(seed, name)
@@ -97,7 +97,7 @@ def test_bridges_have_the_group(name: str, seed: int) -> None:
 
 
 @long
-@settings(max_examples=examples(2, 30), deadline=None, derandomize=True)
+@settings(max_examples=examples(2, 15), deadline=None, derandomize=True)
 @given(seed=st.integers(0, 100_000), name=st.sampled_from(["p4m", "p6m", "pmm"]))
 def test_of_orbits_none_is_needless_and_few_are_found(seed: int, name: str) -> None:
     tile = symmetric_tile(seed, name)
@@ -206,6 +206,31 @@ def test_large_islands_get_two_bridges_far_apart() -> None:
     assert math.dist(*held) > 14 / 3
     with pytest.raises(GeometryError, match=r"large_bridges = 8, expected at most \d: an island at"):
         stencilled(tile_of(marks, SQUARE), bridge=2.4, symmetric=False, large=3, large_bridges=8)
+
+
+def test_the_narrowest_member_is_told() -> None:
+    def narrowest(*marks: shapely.Geometry, **told: object) -> dict[str, object]:
+        found = sheet(stencilled(tile_of(list(marks), SQUARE), bridge=1, **told))["narrowest_member"]
+        assert isinstance(found, dict)
+        return found
+
+    discs = [shapely.Point(12, 20).buffer(5, quad_segs=64), shapely.Point(22.6, 20).buffer(5, quad_segs=64)]
+    between = narrowest(*discs)
+    assert between["mm"] == pytest.approx(0.6, abs=0.01)
+    assert between["at_mm"] == pytest.approx([17.3, 20], abs=0.2)
+    # Across the seam, and within one opening that comes back to itself.
+    assert narrowest(shapely.box(-3, 5, 39.6, 9))["mm"] == 1.002
+    hook = shapely.box(5, 5, 25, 25).difference(shapely.box(8, 8, 22, 25)).union(shapely.box(8.7, 20, 22, 25))
+    assert narrowest(hook.difference(shapely.box(22, 15, 25, 25)))["mm"] == pytest.approx(0.7, abs=0.01)
+
+
+def test_the_weakest_neck_bears_most() -> None:
+    # What hangs in an island hangs on its bridges too.
+    marks = [ring(20, 20, 8, 10), ring(20, 20, 3, 4.5)]
+    found = sheet(stencilled(tile_of(marks, SQUARE), bridge=1, symmetric=False))["weakest_neck"]
+    assert isinstance(found, dict)
+    assert found["bridges"] == 1
+    assert found["holds_mm2"] == pytest.approx(math.pi * (64 - 4.5**2 + 9), rel=0.01)
 
 
 def test_a_net_holds_islands() -> None:

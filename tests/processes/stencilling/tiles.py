@@ -138,8 +138,9 @@ def framed(areas: Geometries, cell: Cell) -> int:
 
 
 def endless(areas: Geometries, cell: Cell) -> int:
-    """Return to how many pieces of 5 x 5 tiles, without a frame, the sheet of the middle one belongs."""
-    middle = shapely.box(0, 0, cell.width, cell.height)
+    """Return to how many pieces of 5 x 5 tiles, without a frame, the sheet about the middle one belongs."""
+    # Half a tile around it: what is apart may be apart along the tile's edges alone.
+    middle = shapely.box(-0.5 * cell.width, -0.5 * cell.height, 1.5 * cell.width, 1.5 * cell.height)
     pieces = cut_out(areas, cell, 5, 0.0)
     return int((shapely.area(shapely.intersection(pieces, middle)) > 1e-5).sum())
 
