@@ -327,6 +327,21 @@ class WaxProcess(ProcessSpec):
     cantings: Annotated[
         dict[str, Spout], Says("breadths of the spouts that there are: the broadest that fits draws")
     ] = field(default_factory=lambda: dict(CANTINGS))
+    cap: Annotated[
+        tuple[Annotated[Length, Between(5, 5000)], Annotated[Length, Between(5, 5000)]] | None,
+        Says("breadth and height of a stamp at most: a file for each that the repeat takes; none if unset"),
+    ] = None
+    pins: Annotated[
+        Annotated[Length, Between(0.2, 20)], Says("diameter of the pins at the corners of a stamp")
+    ] = 2.0
+    cap_number: Annotated[
+        Annotated[int, Between(1, 10_000)] | None, Says("which stamp the file holds, where there are several")
+    ] = None
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.cap_number is not None and self.cap is None:
+            raise GeometryError(f"cap_number = {self.cap_number}, expected the size of a cap beside it")
 
     def apply(self, page: Page, machine: Machine) -> Artwork:
         """Return a plate, all as layers, or the cloth; see :meth:`ProcessSpec.apply`."""

@@ -19,11 +19,15 @@ from batik_vector.errors import GeometryError, nearest
 from batik_vector.machines import Machine
 from batik_vector.processes.options import WaxProcess
 from batik_vector.processes.waxing.cantings import drawn_by
+from batik_vector.processes.waxing.caps import Grid, grid_of, stamp
 from batik_vector.processes.waxing.choices import ALL, CLOTH, Removal
 from batik_vector.processes.waxing.planning import Doing, Plate, Step, planned, plates
 from batik_vector.processes.waxing.regions import Shown, shown
 from batik_vector.processes.waxing.verdict import colours_of, refusal
 from batik_vector.units import STEPS_PER_MM
+
+MOST_STAMPS = 100
+"""Stamps past which a repeat is not divided."""
 
 STAYS, COMES_OFF, SCRAPED = "#7a4a1e", "#c98f3c", "#d9b98a"
 """The colours of plates on screen: strong wax, wax that is scraped off again, and where it is."""
@@ -55,6 +59,11 @@ def apply(page: Page, spec: WaxProcess, machine: Machine) -> Artwork:
         dyeing=dyeing,
     )
     done = replace(done, facts={"wax": _facts(page, done, dyeing, spec)})
+    if spec.cap is not None:
+        grid = _grid(page, spec)
+        if spec.cap_number is None and len(grid) > 1:
+            raise GeometryError(f"cap_number = none, expected 1 to {len(grid)}: a file holds one stamp")
+        done = stamp(done, grid, spec.cap_number or 1, spec.pins)
     return _mirrored(done) if spec.mirror else done
 
 
@@ -64,10 +73,34 @@ def parts(page: Page, spec: WaxProcess) -> list[tuple[str, WaxProcess]]:
     Raises:
         GeometryError: as :func:`apply`.
     """
-    if spec.plate:
-        return []
     _, made = _asked(page, spec)
-    return [(_slug(each.name), replace(spec, plate=_slug(each.name))) for each in made]
+    stamps = len(_grid(page, spec)) if spec.cap is not None and spec.cap_number is None else 1
+    if spec.plate and stamps == 1:
+        return []
+    found = []
+    for name in [spec.plate] if spec.plate else [_slug(each.name) for each in made]:
+        for number in range(1, stamps + 1):
+            words = [*([] if spec.plate else [name]), *([f"cap-{number}"] if stamps > 1 else [])]
+            own = replace(spec, plate=name, cap_number=number if stamps > 1 else spec.cap_number)
+            found.append(("-".join(words), own))
+    return found
+
+
+def _grid(page: Page, spec: WaxProcess) -> Grid:
+    """Return how a plate is divided over stamps.
+
+    Raises:
+        GeometryError: where it is no tile's, or there would be too many.
+    """
+    assert spec.cap is not None
+    if not isinstance(page, Artwork) or page.bleed:
+        raise GeometryError("cap, expected a tile: a cloth is stamped by what repeats")
+    if spec.plate == CLOTH:
+        raise GeometryError(f'plate = "{CLOTH}", expected a plate, or no cap: a stamp prints wax')
+    grid = grid_of(page.cell, spec.cap)
+    if len(grid) > MOST_STAMPS:
+        raise GeometryError(f"cap, expected a larger one: the repeat takes {len(grid):,}, past {MOST_STAMPS}")
+    return grid
 
 
 def stages(page: Page, spec: WaxProcess) -> list[tuple[Step, Artwork]]:
