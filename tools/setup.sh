@@ -186,6 +186,7 @@ clients_ready() {
         gs:ghostscript hp2xx:hp2xx $browser
     # An interpreter of G-code; not every distribution has it.
     (programs_ready rs274:linuxcnc-uspace) || say "LinuxCNC cannot be installed: its tests will say so"
+    (programs_ready openscad:openscad) || say "OpenSCAD cannot be installed: its test will say so"
     # Inkscape's writers of other formats are Python, and take the system's.
     /usr/bin/python3 -c 'import cssselect, lxml, numpy' 2>/dev/null ||
         system_needs python3-cssselect python3-lxml python3-numpy

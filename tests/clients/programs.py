@@ -129,6 +129,18 @@ def librecad(dxf: Path) -> Path:
     return folder / dxf.with_suffix(".pdf").name
 
 
+def openscad(dxf: Path) -> list[list[tuple[float, float]]]:
+    """Return the outlines that OpenSCAD makes of closed contours, in mm, y up."""
+    scene, out = dxf.with_suffix(".scad"), dxf.with_name("openscad.svg")
+    scene.write_text(f'import("{dxf.name}");', "ascii")
+    run("openscad", "-q", "-o", out, scene, home=dxf.parent)
+    data = re.findall(r' d="([^"]*)"', out.read_text("ascii"))
+    rings = [each for path in data for each in path.split("M") if each.strip()]
+    return [
+        [(float(x), -float(y)) for x, y in re.findall(r"(-?[\d.e-]+),(-?[\d.e-]+)", ring)] for ring in rings
+    ]
+
+
 def rs274(program: Path) -> list[str]:
     """Return the canonical motions and settings that LinuxCNC's interpreter makes of a program."""
     tools = program.with_name("tools.tbl")

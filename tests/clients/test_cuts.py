@@ -106,6 +106,18 @@ def test_librecad_prints_a_cut(cut: Prepared, tmp_path: Path) -> None:
     assert high - low >= cut.cell.height - 0.36
 
 
+def test_openscad_takes_a_cut_for_areas(tmp_path: Path) -> None:
+    machine = read_machine("laser")
+    page = CutProcess(kerf=0.1).apply(compile_recipe(load_recipe(SAMPLES / "kawung.toml")), machine)
+    path = tmp_path / "cut.dxf"
+    path.write_bytes(render(page, "dxf"))
+    told = shapely.polygons([shapely.LinearRing(line.coords) for line in np.concatenate(lines_of(page))])
+    found = shapely.polygons([shapely.LinearRing(ring) for ring in programs.openscad(path)])
+    assert len(found) == len(told)
+    assert shapely.total_bounds(found) == pytest.approx(shapely.total_bounds(told), abs=1e-3)
+    assert shapely.area(found).sum() == pytest.approx(shapely.area(told).sum(), rel=1e-4)
+
+
 def test_an_interpreter_of_gcode_follows_a_cut(tmp_path: Path) -> None:
     page = prepared("machine-laser")
     profile = read_machine("grbl-laser")
