@@ -12,6 +12,7 @@ import shapely
 from numpy.typing import NDArray
 
 from batik_vector.artwork import Geometries
+from batik_vector.geometry import work
 from batik_vector.geometry.congruence import alike
 from batik_vector.geometry.outlines import Index, Offsets, Steps, runs
 from batik_vector.geometry.sampling import Indices
@@ -135,8 +136,14 @@ def _held(
 
 
 def unions(stock: Stock, rows: Steps, offsets: Offsets, which: Index) -> Geometries:
-    """Return the unions of some runs of rows (kind, x, y)."""
+    """Return the unions of some runs of rows (kind, x, y).
+
+    Raises:
+        TooLargeError: where they are too large, before they are in memory, or cross too often.
+    """
     members, ends = runs(offsets, which)
+    joining = rows[members[np.repeat(np.diff(ends) > 1, np.diff(ends))], 0]
+    work.foretell(float(shapely.get_num_coordinates(stock.shapes)[joining].sum()), 0.0)
     areas = stock.geometries(Copies(rows[members, 0], rows[members, 1:]))
     result = areas[ends[:-1]]
     several = np.flatnonzero(np.diff(ends) > 1)

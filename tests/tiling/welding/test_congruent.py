@@ -9,11 +9,12 @@ import shapely.affinity
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from batik_vector.errors import TooLargeError
 from batik_vector.tiling.torus import overlay
 from batik_vector.tiling.welding.congruent import Copies, Stock
 from batik_vector.tiling.welding.cuts import cut, touched
 from batik_vector.tiling.welding.sheets import Laid
-from batik_vector.tiling.welding.weld import weld, welded
+from batik_vector.tiling.welding.weld import unions, weld, welded
 
 FLOWER = shapely.Point(0, 0).buffer(4_000, quad_segs=6)
 LEAF = shapely.Polygon([(0, 0), (9_000, 1_000), (12_000, 5_000), (3_000, 4_000)])
@@ -178,3 +179,14 @@ def test_a_mark_is_cut_by_the_repeats_of_its_cutters(
     expected = placed(LEAF, (15_000, 13_000))[0].difference(shapely.union_all(placed(FLOWER, *repeats)))
     assert shapely.area(stock.geometries(left.copies)).sum() == pytest.approx(expected.area, rel=1e-3)
     assert touched(stock, beneath, above, lattice).all()
+
+
+def test_unions_too_large_are_refused_before_they_are_in_memory(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A recipe of sixteen thousand petals, twice over, came to 92 million vertices in one array."""
+    stock = Stock()
+    stock.add(np.array([shapely.Point(0, 0).buffer(9_000, quad_segs=2_500)], dtype=object))
+    rows = np.zeros((3_000, 3), np.int64)
+    rows[:, 1] = np.arange(3_000)
+    monkeypatch.delattr(Stock, "geometries")
+    with pytest.raises(TooLargeError, match="shapes of about 30,000,000 vertices"):
+        unions(stock, rows, np.array([0, 1, 2_999, 3_000]), np.arange(3))
