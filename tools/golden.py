@@ -28,7 +28,7 @@ from batik_vector.export import PngOptions, render
 from batik_vector.library import included
 from batik_vector.library.measuring import measured
 from batik_vector.making.pages import Latest, done_to_tile, prepared
-from batik_vector.recipe.outputs import PngOutput
+from batik_vector.recipe.outputs import OutputSpec, PngOutput
 from batik_vector.tiling.cloth.field import repeated
 from batik_vector.tiling.cloth.yardage import Yardage
 from batik_vector.units import STEPS_PER_MM, format_mm
@@ -69,13 +69,14 @@ class Sample:
         page: Page = self.page
         if isinstance(page, Artwork):
             own = next((each for each in self.recipe.output if isinstance(each, PngOutput)), None)
+            left: OutputSpec | None = own
             if own is not None:
-                made, own, _ = done_to_tile(page, page, own, Latest(), lambda tile: tile)
+                made, left, _ = done_to_tile(page, page, own, Latest(), lambda tile: tile)
                 assert isinstance(made, Artwork)
                 page = made
             page = repeated(page, *own.repeat if own else repeats(page.cell.width / page.cell.height))
-            if own is not None:
-                page = prepared(page, own)[0]
+            if left is not None:
+                page = prepared(page, left)[0]
         around = page.margins
         width = page.cell.width + (around.left + around.right) / STEPS_PER_MM
         height = page.cell.height + (around.bottom + around.top) / STEPS_PER_MM

@@ -291,6 +291,10 @@ class StencilProcess(ProcessSpec):
         Annotated[Length, Between(0.01, 1000)] | None,
         Says("islands less across than that are left to fall out; none if unset"),
     ] = None
+    neck: Annotated[
+        Annotated[Length, Between(0.01, 100)] | None,
+        Says("sheet narrower than that holds nothing; any neck holds if unset"),
+    ] = None
     large: Annotated[
         Annotated[Length, Between(0.1, 100_000)] | None,
         Says("islands so much across or more are large, and held by more bridges; none if unset"),

@@ -25,7 +25,7 @@ from batik_vector.processes.stencilling.choices import Backing
 from batik_vector.processes.stencilling.faults import check_sheet, check_whole
 from batik_vector.processes.stencilling.gaps import PLAIN
 from batik_vector.processes.stencilling.islands import islands_of, without_small
-from batik_vector.processes.stencilling.openings import bridged, layer_of, openings_of, within_tile
+from batik_vector.processes.stencilling.openings import bridged, layer_of, openings_of, with_thin, within_tile
 from batik_vector.processes.stencilling.planning import Plan, bodies, ground_of, lengths, planned
 from batik_vector.processes.stencilling.sheets import Sheet, Torus, hanging, sheet_of
 from batik_vector.processes.stencilling.strengthening import PLENTY, strengthened
@@ -87,7 +87,12 @@ def _held(
         openings, dropped = without_small(openings, sheet, islands, spec.drop * STEPS_PER_MM)
         islands = islands_of(sheet_of(openings, tile.cell)) if dropped else islands
     bridges = spec.backing is Backing.NONE
-    ground = ground_of(openings, tile.cell, tile.tolerance * STEPS_PER_MM, bridges and spec.symmetric)
+    holding = (
+        openings if spec.neck is None else with_thin(openings, Torus(tile.cell), spec.neck * STEPS_PER_MM)
+    )
+    if holding is not openings:
+        islands = islands_of(sheet_of(holding, tile.cell))
+    ground = ground_of(holding, tile.cell, tile.tolerance * STEPS_PER_MM, bridges and spec.symmetric)
     check_sheet(ground, ink.name)
     plan = Plan(ground, made=ground.sheet.clusters)
     if bridges:

@@ -36,6 +36,7 @@ CLEAN = [
     ("canting", "machine-wax-pen"),
     ("laser", "machine-laser"),
     ("vinyl-cutter", "machine-vinyl"),
+    ("stencil-film", "machine-stencil"),
 ]
 
 

@@ -102,6 +102,7 @@ BEYOND = {
         "bridges broader than an island",
         "a stencil after a cut",
         "islands of no size",
+        "necks of no breadth",
         "tabs of no breadth",
         "tabs longer than a contour",
         "weed lines on one another",

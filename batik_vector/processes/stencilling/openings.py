@@ -8,7 +8,7 @@ import shapely
 from batik_vector.artwork import Artwork, Cell, Ink, Layer
 from batik_vector.artwork.page import Border
 from batik_vector.geometry.outlines import Steps, of_polygons, of_polylines
-from batik_vector.geometry.regions import oriented
+from batik_vector.geometry.regions import oriented, polygonal
 from batik_vector.geometry.sampling import Geometries
 from batik_vector.processes.cutting.choices import LineBodies
 from batik_vector.processes.cutting.overlays import united, without, without_hairs
@@ -52,6 +52,31 @@ def within_tile(regions: Geometries, torus: Torus) -> Geometries:
     return mended(without_hairs(whole), torus)
 
 
+def with_thin(openings: Geometries, torus: Torus, neck: float) -> Geometries:
+    """Return openings together with what of the sheet between them is too narrow to hold anything.
+
+    Args:
+        openings: within the tile, in steps.
+        torus: the tile.
+        neck: in steps; a disc of that diameter goes through all that is left of the sheet.
+    """
+    cell, margin = torus.cell, 2 * neck
+    low, high = np.full(2, -margin), np.array([cell.columns, cell.rows]) + margin
+    which, gains = torus.around(shapely.bounds(openings), low, high)
+    around = shapely.union_all(moved(openings[which], torus.at(gains)))
+    # Wide enough that no edge of the window makes a neck within the tile.
+    sheet = shapely.difference(shapely.box(*low, *high), around)
+    reached = shapely.buffer(shapely.buffer(sheet, -neck / 2, quad_segs=ROUND), neck / 2 + 1, quad_segs=ROUND)
+    thin = polygonal(
+        shapely.intersection(shapely.difference(sheet, reached), shapely.box(0, 0, cell.columns, cell.rows))
+    )
+    thin = without_crumbs(thin)
+    if not len(thin):
+        return openings
+    # Grown by a step or two, so that it meets the openings on its sides.
+    return within_tile(np.concatenate([openings, shapely.buffer(thin, 2, quad_segs=2)]), torus)
+
+
 def mended(openings: Geometries, torus: Torus) -> Geometries:
     """Return openings of which the corners on far edges of the tile lie where their twins on near ones do."""
     cell = torus.cell
@@ -91,6 +116,8 @@ def bridged(openings: Geometries, bodies: Geometries, torus: Torus) -> Geometrie
     return mended(np.concatenate([left, *(without_crumbs(each) for each in cut)]), torus)
 
 
+ROUND = 16
+"""Chords of a quarter of a disc."""
 CRUMB = 20.0
 """Steps of breadth, on average, below which what a bridge leaves of an opening is no opening."""
 

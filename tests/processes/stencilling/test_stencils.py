@@ -224,6 +224,25 @@ def test_the_narrowest_member_is_told() -> None:
     assert narrowest(hook.difference(shapely.box(22, 15, 25, 25)))["mm"] == pytest.approx(0.7, abs=0.01)
 
 
+def test_thin_necks_need_not_hold() -> None:
+    # A slit leaves a neck of 0.3 mm to what the frame encloses.
+    frame = shapely.box(8, 8, 32, 32).difference(shapely.box(11, 11, 29, 29))
+    slit = tile_of([frame.difference(shapely.box(28, 19.85, 40, 20.15))], SQUARE)
+    assert sheet(stencilled(slit, bridge=1, symmetric=False))["bridges"] == 0
+    moved = tile_of(
+        [shapely.affinity.translate(each, 10.1, 0) for each in shapely.get_parts(openings(slit))], SQUARE
+    )
+    for each in (slit, moved):  # within the tile, and across its edge
+        told = sheet(stencilled(each, bridge=1, symmetric=False, neck=0.4))
+        assert (told["islands"], told["bridges"]) == (1, 1)
+    held = sheet(stencilled(slit, bridge=1, symmetric=False, neck=0.4))
+    assert (held["islands"], held["bridges"]) == (1, 1)
+    assert sheet(stencilled(slit, bridge=1, symmetric=False, neck=0.2))["bridges"] == 0
+    assert shapely.area(
+        openings(stencilled(slit, bridge=1, symmetric=False, neck=0.4))
+    ).sum() == pytest.approx(shapely.area(openings(slit)).sum() - 3, abs=0.05)
+
+
 def test_the_weakest_neck_bears_most() -> None:
     # What hangs in an island hangs on its bridges too.
     marks = [ring(20, 20, 8, 10), ring(20, 20, 3, 4.5)]
