@@ -46,13 +46,13 @@ def compiled(recipe: Path, out: Path, formats: str) -> dict[str, bytes]:
 def test_a_pattern_is_designed_saved_and_exported(chromium: Any, tmp_path: Path) -> None:
     with studio(tmp_path / "own") as made:
         page = Page(chromium, made.address)
-        page.choose("four-square", "Four-square flower")
+        begun = page.picture()
+        page.choose("sample/four-square", "Four-square flower")
+        first = page.settled(begun)
         page.slider(PETAL).wait_for()
-        first = page.picture()
 
         # A slider, with the keyboard alone.
-        slider = page.slider(PETAL).locator("[tabindex='0']").or_(page.slider(PETAL)).first
-        slider.focus()
+        page.slider(PETAL).locator("[tabindex='0']").focus()
         for _ in range(8):
             page.page.keyboard.press("ArrowLeft")
         moved = page.settled(first)

@@ -162,7 +162,7 @@ class Display:
         width, height = facts["cell_mm"]
         say(self.size, f"{width:g} × {height:g} mm")
         say(self.counted, f"{facts.get('vertices', 0):,} vertices")
-        say(self.seconds, f"{picture.seconds * 1000:.0f} ms")
+        say(self.seconds, f"drawn in {picture.seconds * 1000:.0f} ms")
         self._list_layers(facts)
         if self._verdict is not None:
             self._verdict.cancel()

@@ -77,6 +77,7 @@ class Row:
             self.lock = icon_button(
                 "lock_open", f"Lock {self.words}", self._lock, tip="Lock: variations leave it"
             )
+            self.lock.classes("lock")
             self.fault = text("", "fault").props("role=alert")
         self.update(control, force=True)
 

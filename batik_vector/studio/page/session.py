@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 KEPT = 32
 """Pictures that browsers can still ask for."""
+PRESSED = 1.0
+"""Seconds within which another press of a key belongs to the same step."""
 INCLUDED = ("sample/", "starter/")
 
 
@@ -43,6 +45,7 @@ class Session:
         self.files: dict[int, tuple[str, bytes]] = {}
         self._number = 0
         self._seed = 0
+        self._settling: asyncio.TimerHandle | None = None
         self._compiling: tuple[Draft, tuple[Fault, ...]] | None = None
         self._listeners: list[Callable[[], None]] = []
         self._library_listeners: list[Callable[[], None]] = []
@@ -125,12 +128,19 @@ class Session:
     def change(self, draft: Draft, label: str, merge: str = "") -> None:
         """Go on with another draft; the one before can be had back."""
         if draft != self.draft:
+            self._keep_open()
             self.desk.did(draft, label, merge)
             self._tell()
 
     def settle(self) -> None:
-        """End a step of many small changes: the slider is let go."""
-        self.desk.settle()
+        """End a step of many small changes, soon: the slider is let go, and keys may press on."""
+        self._keep_open()
+        self._settling = asyncio.get_running_loop().call_later(PRESSED, self.desk.settle)
+
+    def _keep_open(self) -> None:
+        if self._settling is not None:
+            self._settling.cancel()
+            self._settling = None
 
     def set_value(self, path: str, value: Any, merge: str = "") -> None:
         """Set a value of the recipe, or reset it where it is None.
@@ -300,6 +310,7 @@ class Session:
 
     def close(self) -> None:
         """End what works beside the studio; what is open stays kept."""
+        self._keep_open()
         self.images.close()
         self.aside.close()
         self.desk.close()
