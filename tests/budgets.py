@@ -25,11 +25,13 @@ import shapely
 
 from batik_vector.compiling import placements
 from batik_vector.geometry.curves import Circle
-from batik_vector.recipe import figures
+from batik_vector.recipe import figures, loading
 from batik_vector.recipe.model import InkSpec, Placement, Recipe
 from batik_vector.recipe.motif import Element, Motif, Rosette
+from batik_vector.recipe.reading import builder
 from batik_vector.tiling.layouts import Lattice
 from batik_vector.tiling.symmetry.repeats import TileSpec
+from batik_vector.tiling.torus import remembered
 
 PACKAGE = str(Path(__file__).resolve().parents[1] / "batik_vector")
 ROOM = 1.3
@@ -179,7 +181,10 @@ def peak_bytes(call: Callable[[], object]) -> int:
 
 
 def cold() -> None:
-    """Forget what earlier compilations drew."""
+    """Forget what earlier compilations read, drew and overlaid."""
+    builder._known.clear()
+    loading._tables.cache_clear()
+    remembered._known.clear()
     placements._kept.clear()
     figures._copied.cache_clear()
     figures._alone.cache_clear()

@@ -8,6 +8,7 @@ from __future__ import annotations
 import io
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from itertools import islice
 from pathlib import Path
 from xml.sax.saxutils import escape
@@ -26,7 +27,7 @@ PAPERS = {
     "A1": (594, 841),
     "A0": (841, 1189),
 }
-"""Breadth and height in mm. ISO 216."""
+"""Breadth and height in mm, upright. ISO 216."""
 FORMATS = ("svg", "pdf", "png")
 DPI = 200
 """Of PNGs."""
@@ -34,6 +35,8 @@ INK, FAINT, PAPER = "#2b2622", "#8d857c", "#fbf9f5"
 FONT = "font-family=\"'Source Sans 3', 'Helvetica Neue', Arial, 'DejaVu Sans', sans-serif\""
 LEAST, WIDEST = 24.0, 90.0
 """Breadth of a picture in mm, where pictures are many and where they are few."""
+MARGINS = 17.5
+"""How many margins the shorter side of a page is broad."""
 MOST_SHARE = 1.5
 """By how much a picture may be taller than broad, or the other way round."""
 
@@ -76,6 +79,8 @@ class Plan:
 def plan(count: int, shape: float, lines: int, paper: str = "A4", columns: int = 0) -> Plan:
     """Return the layout on which the pictures are largest and one page holds them all, if one can.
 
+    The page lies on its side where that makes them larger: many columns and few rows.
+
     Args:
         count: how many pictures.
         shape: their height over their breadth.
@@ -88,26 +93,36 @@ def plan(count: int, shape: float, lines: int, paper: str = "A4", columns: int =
     """
     if paper not in PAPERS:
         raise RecipeError(unknown_name(paper, list(PAPERS), "paper"))
-    width, height = (float(side) for side in PAPERS[paper])
-    margin = width / 17.5
+    upright, lying = PAPERS[paper], PAPERS[paper][::-1]
     shape = min(max(shape, 1 / MOST_SHARE), MOST_SHARE)
-    most = int((width - 2 * margin + 3) / (LEAST + 3))
-    layouts = [_laid_out(width, height, margin, each, shape, lines) for each in range(1, most + 1)]
+    found = [_best(count, shape, lines, size, columns) for size in (upright, lying)]
+    # The first of equals, and of those that need several pages.
+    return max(found, key=lambda each: each.breadth if each.each >= count else 0.0)
+
+
+def _best(count: int, shape: float, lines: int, size: tuple[int, int], columns: int) -> Plan:
+    """Do the work of :func:`plan` for one way to lay the page."""
+    width, height = (float(side) for side in size)
+    short = min(size)
+    most = int((width - 2 * short / MARGINS + 3) / (LEAST + 3))
+    layouts = [_laid_out(width, height, each, shape, lines) for each in range(1, most + 1)]
     if columns and columns <= most:
         return layouts[columns - 1]
     # Few pictures do not fill a page for its own sake.
-    fits = [each for each in layouts if each.each >= count and each.breadth <= WIDEST * width / 210]
+    fits = [each for each in layouts if each.each >= count and each.breadth <= WIDEST * short / 210]
     return fits[0] if fits else layouts[-1]
 
 
-def _laid_out(width: float, height: float, margin: float, columns: int, shape: float, lines: int) -> Plan:
+def _laid_out(width: float, height: float, columns: int, shape: float, lines: int) -> Plan:
+    short = min(width, height)
+    margin = short / MARGINS
     gap = max(3.0, (width - 2 * margin) / columns * 0.08)
     breadth = (width - 2 * margin - gap * (columns - 1)) / columns
-    letters = min(max(breadth / 15, 1.6), width / 70)
-    head = width / 11
+    letters = min(max(breadth / 15, 1.6), short / 70)
+    head = short / 11
     page = Plan(width, height, margin, head, columns, 1, breadth, breadth * shape, gap, letters, lines)
     rows = max(1, int((height - 2 * margin - head + gap) / page.pitch))
-    return Plan(width, height, margin, head, columns, rows, breadth, breadth * shape, gap, letters, lines)
+    return replace(page, rows=rows)
 
 
 def pages(
@@ -136,7 +151,8 @@ def _page(
         f'viewBox="0 0 {width:g} {height:g}">\n<title>{escape(title)}</title>\n'
         f'<rect width="{width:g}" height="{height:g}" fill="{PAPER}"/>\n'
     ]
-    large, small = width / 32, width / 80
+    short = min(width, height)
+    large, small = short / 32, short / 80
     told.append(_text(page.margin, page.margin + large, large, title, INK, weight=600))
     for row, line in enumerate(about):
         told.append(

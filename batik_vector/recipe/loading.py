@@ -6,6 +6,7 @@ fails is pydantic asked what is wrong, and the line of each key looked up.
 
 from __future__ import annotations
 
+import functools
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -23,6 +24,15 @@ if TYPE_CHECKING:
     from batik_vector.recipe.reading.overrides import Override
 
 EMPTY = 'a recipe: "batik-vector new" writes one to begin with'
+
+
+KEPT_TEXT = 100_000
+"""Characters of a text whose tables are remembered: a sweep reads one recipe a thousand times."""
+
+
+@functools.lru_cache(maxsize=4)
+def _tables(text: str, source: str) -> dict[str, Any]:
+    return tables_of(text, source, EMPTY)
 
 
 def load_recipe(path: str | os.PathLike[str], overrides: Sequence[str] = ()) -> Recipe:
@@ -69,7 +79,8 @@ def read_recipe(
     text, carried = parted(text.replace("\r\n", "\n"))
     carried |= drawings or {}
     written = text
-    data = tables_of(text, source, EMPTY)
+    # Only what stands at the top is changed below.
+    data = dict(_tables(text, source) if len(text) <= KEPT_TEXT else tables_of(text, source, EMPTY))
     changes: list[Override] = []
     if overrides:
         from batik_vector.recipe.reading.overrides import overridden, parse_override

@@ -135,13 +135,16 @@ def test_annotations_are_resolved_once_and_only_those_a_recipe_needs() -> None:
 
 def test_reading_goes_with_the_length_of_a_recipe() -> None:
     text = SAMPLE.read_text(encoding="utf-8")
-    more = (
-        '[[place]]\nmotif = "knot"\nlayout = { kind = "lattice", rows = 4 }\nscale = "60 mm"\nink = "wax"\n'
-    )
+    # Each is another, for what is read again is remembered.
+    layout = 'layout = {{ kind = "lattice", rows = {} }}'
+    more = f'[[place]]\nmotif = "knot"\n{layout}\nscale = "60 mm"\nink = "wax"\n'
     read_recipe(text)
+    cold()
     once = steps_run(partial(read_recipe, text))
     for count in (10, 100):
-        longer = text.replace("[tile]", more * count + "[tile]")
+        places = "".join(more.format(count + number) for number in range(count))
+        longer = text.replace("[tile]", places + "[tile]")
+        cold()
         spent = steps_run(partial(read_recipe, longer)) - once
         BUDGETS.hold("steps of our code for each placement read", spent / count)
 

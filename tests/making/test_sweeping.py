@@ -187,14 +187,27 @@ def test_a_sheet_shows_every_variant_on_as_many_pages_as_it_takes(desk: Path) ->
 @pytest.mark.parametrize("count", [1, 2, 7, 20, 42, 200])
 @pytest.mark.parametrize("shape", [0.2, 0.7, 1.0, 1.7])
 def test_pictures_stay_on_the_page_and_apart(count: int, shape: float) -> None:
-    for paper, (width, height) in sheets.PAPERS.items():
+    for paper, size in sheets.PAPERS.items():
         page = sheets.plan(count, shape, 2, paper)
+        width, height = page.width, page.height
+        assert sorted((width, height)) == sorted(size)
         across = 2 * page.margin + page.columns * page.breadth + (page.columns - 1) * page.gap
         up = 2 * page.margin + page.head + page.rows * page.pitch - page.gap
         assert across <= width + 1e-6
         assert up <= height + 1e-6
         assert page.gap >= 3
         assert page.breadth >= 20
+
+
+@pytest.mark.parametrize(
+    ("count", "columns", "lying"),
+    [(8, 4, True), (10, 0, True), (20, 5, False), (3, 0, False), (1000, 0, False)],
+)
+def test_a_page_lies_on_its_side_where_pictures_are_larger_so(count: int, columns: int, lying: bool) -> None:
+    page = sheets.plan(count, 1.0, 2, "A4", columns)
+    assert (page.width > page.height) == lying
+    assert not columns or page.columns == columns
+    assert page.each >= count or count == 1000
 
 
 @long

@@ -70,17 +70,40 @@ def _table(hint: Hint, value: dict[str, Any]) -> Any:
     if hint.alone and hint.item is not None:
         return (_value(hint.item, value),)
     if hint.origin is dict and hint.item is not None:
-        return {name: _value(hint.item, each) for name, each in value.items()}
+        return {name: _table_again(hint.item, each) for name, each in value.items()}
     if isinstance(hint.base, type) and dataclasses.is_dataclass(hint.base):
         return built(hint.base, value)
     raise UnsureError
+
+
+KEPT_TABLES, KEPT_TEXT = 256, 20_000
+"""How many tables are remembered with the values that they became, and how long they may be, written out."""
+
+_known: dict[tuple[int, str], tuple[Hint, Any]] = {}
+
+
+def _table_again(hint: Hint, value: Any) -> Any:
+    """Return the value of one table among several. Kept: who turns one knob reads the other tables again."""
+    if type(value) is not dict:
+        return _value(hint, value)
+    # Written out 1, 1.0 and true are told apart, which are equal.
+    key = id(hint), repr(value)
+    found = _known.get(key)
+    if found is None:
+        # The hint is kept too, so that no other comes to have its number.
+        found = hint, _value(hint, value)
+        if len(key[1]) <= KEPT_TEXT:
+            _known[key] = found
+            while len(_known) > KEPT_TABLES:
+                _known.pop(next(iter(_known)), None)
+    return found[1]
 
 
 def _list(hint: Hint, value: list[Any]) -> tuple[Any, ...]:
     if hint.several and value:
         return tuple(_text(hint, each) if type(each) is str else _value(hint, each) for each in value)
     if hint.many and hint.item is not None:
-        return tuple(_value(hint.item, each) for each in value)
+        return tuple(_table_again(hint.item, each) for each in value)
     if len(hint.items) != len(value) or not value:
         raise UnsureError
     return tuple(_value(item, each) for item, each in zip(hint.items, value, strict=True))

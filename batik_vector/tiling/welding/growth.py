@@ -8,6 +8,7 @@ import shapely
 from batik_vector.artwork import Geometries
 from batik_vector.geometry import work
 from batik_vector.tiling.torus import overlay
+from batik_vector.tiling.torus.remembered import remembered
 from batik_vector.units import STEPS_PER_MM
 
 PLAIN_CORNERS = 8
@@ -51,7 +52,11 @@ def grown_on_grid(shapes: Geometries, reach: float, corners: int = PLAIN_CORNERS
     """
     if not reach:
         return shapes
-    work.spend_on_growth(shapes, reach * STEPS_PER_MM)
-    return overlay.on_grid(
-        np.asarray(shapely.buffer(shapes, reach * STEPS_PER_MM, quad_segs=corners), dtype=object)
-    )
+
+    def grow() -> tuple[Geometries]:
+        work.spend_on_growth(shapes, reach * STEPS_PER_MM)
+        bodies = shapely.buffer(shapes, reach * STEPS_PER_MM, quad_segs=corners)
+        return (overlay.on_grid(np.asarray(bodies, dtype=object)),)
+
+    (found,) = remembered(("grown", reach, corners), shapes, grow)
+    return found

@@ -15,6 +15,7 @@ from batik_vector.artwork import Cell, DropAxis, Geometries
 from batik_vector.geometry.congruence import alike
 from batik_vector.geometry.outlines import Index, runs
 from batik_vector.tiling.torus import overlay, seams
+from batik_vector.tiling.torus.remembered import remembered
 from batik_vector.tiling.torus.torus import (
     Lattice,
     Steps,
@@ -79,7 +80,9 @@ class Torus:
         heads, row = alike(rows)
         shapes = self.stock.geometries(marks.taken(heads))
         self._crossing.append(shapes)
-        pieces, of = clip_areas(shapes, np.arange(len(shapes)), self.window)
+        pieces, of = remembered(
+            ("clipped", self.window), shapes, lambda: clip_areas(shapes, np.arange(len(shapes)), self.window)
+        )
         order = np.argsort(of, kind="stable")
         which, starts = runs(np.searchsorted(of[order], np.arange(len(shapes) + 1)), row)
         each = np.repeat(np.arange(len(marks)), np.diff(starts))

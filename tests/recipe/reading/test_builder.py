@@ -12,6 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from batik_vector.recipe.model import Recipe
+from batik_vector.recipe.reading import builder
 from batik_vector.recipe.reading.builder import UnsureError, built
 from batik_vector.recipe.reading.validator import validated
 
@@ -80,3 +81,22 @@ def test_an_unknown_key_a_wrong_word_and_a_number_out_of_bounds_are_doubted() ->
     ):
         with pytest.raises(UnsureError):
             built(Recipe, changed(good, path, value))
+
+
+def test_tables_that_are_read_again_are_told_apart_by_type() -> None:
+    def read(length: object) -> Recipe:
+        table = copy.deepcopy(SAMPLES["kawung"])
+        table["motif"]["again"] = {"kind": "rosette", "elements": [{"curve": {"kind": "circle"}}]}
+        table["motif"]["again"]["elements"][0]["count"] = length
+        return built(Recipe, table)
+
+    assert read(1) == read(1)
+    assert read(1).motif["again"] is read(1).motif["again"]
+    for wrong in (True, 1.0, "1", 0):
+        for _ in range(2):
+            with pytest.raises(UnsureError):
+                read(wrong)
+    assert len(builder._known) <= builder.KEPT_TABLES
+    for count in range(1, builder.KEPT_TABLES + 9):
+        assert read(count).motif["again"].parts()[0].count == count
+    assert len(builder._known) == builder.KEPT_TABLES
