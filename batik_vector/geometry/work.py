@@ -10,7 +10,7 @@ from __future__ import annotations
 import contextlib
 import contextvars
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -86,11 +86,6 @@ class _Account:
     def __init__(self) -> None:
         self.spent = self.vertices = self.crossings = self.pairs = 0.0
 
-    @property
-    def share(self) -> Share:
-        """All of it so far."""
-        return self.spent, self.vertices, self.crossings, self.pairs
-
     def take(self, cost: float, vertices: float = 0.0, crossings: float = 0.0, pairs: float = 0.0) -> None:
         self.vertices += vertices
         self.crossings += crossings
@@ -126,32 +121,14 @@ Share: TypeAlias = tuple[float, float, float, float]
 """What was spent, and on how many vertices, crossings and pairs."""
 
 
-def is_counting() -> bool:
-    """Return whether work is counted together: an account is open."""
-    return _open.get() is not None
-
-
-@contextlib.contextmanager
-def noted() -> Iterator[Callable[[], Share]]:
-    """Note the work that is done inside, within an account; yield what tells it afterwards."""
-    open_ = _open.get() or _Account()
-    before = open_.share
-
-    def since() -> Share:
-        spent, vertices, crossings, pairs = (
-            now - then for now, then in zip(open_.share, before, strict=True)
-        )
-        return spent, vertices, crossings, pairs
-
-    yield since
+def counted() -> Share | None:
+    """Return what has been counted so far, or None where no account is open."""
+    now = _open.get()
+    return None if now is None else (now.spent, now.vertices, now.crossings, now.pairs)
 
 
 def spend_again(share: Share) -> None:
-    """Take up work that was done before, and whose result is known.
-
-    Raises:
-        TooLargeError: as :func:`spend`.
-    """
+    """Take up work that was done before, as :func:`spend` does: its result is known."""
     (_open.get() or _Account()).take(*share)
 
 

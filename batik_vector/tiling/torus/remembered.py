@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
 import shapely
 from numpy.typing import NDArray
 
@@ -35,7 +36,8 @@ def remembered(how: tuple[object, ...], shapes: Geometries, make: Callable[[], A
     Raises:
         TooLargeError: where the work comes to too much.
     """
-    if not len(shapes) or not work.is_counting() or shapely.get_num_coordinates(shapes).sum() > KEPT_VERTICES:
+    before = work.counted()
+    if before is None or not len(shapes) or shapely.get_num_coordinates(shapes).sum() > KEPT_VERTICES:
         return make()
     # In WKB a shape says itself how long it is.
     key = (*how, b"".join(shapely.to_wkb(shapes)))
@@ -43,11 +45,11 @@ def remembered(how: tuple[object, ...], shapes: Geometries, make: Callable[[], A
         share, found = _known[key]
         work.spend_again(share)
         return found
-    with work.noted() as noted:
-        found = make()
+    found = make()
     for each in found:
         each.flags.writeable = False
-    _known[key] = noted(), found
+    spent, vertices, crossings, pairs = np.subtract(work.counted() or before, before).tolist()
+    _known[key] = (spent, vertices, crossings, pairs), found
     while len(_known) > KEPT:
         _known.pop(next(iter(_known)), None)
     return found
