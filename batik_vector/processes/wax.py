@@ -250,7 +250,8 @@ def _facts(page: Page, done: Artwork, dyeing: Dyeing, spec: WaxProcess) -> dict[
         for layer in layers
     }
     inks = [plate.ink.name for plate in page.plates if not plate.guide]
-    steps = planned(dyeing, colours_of(dyeing, inks).values(), spec.removal)
+    colours = colours_of(dyeing, inks)
+    steps = planned(dyeing, colours.values(), spec.removal)
     return {
         "removal": str(spec.removal),
         "plates": [
@@ -263,5 +264,6 @@ def _facts(page: Page, done: Artwork, dyeing: Dyeing, spec: WaxProcess) -> dict[
             }
             for name, each in area.items()
         ],
+        "add_only": refusal(dyeing, colours) or "possible",
         "work": [{"step": each.name, "doing": str(each.doing), "bath": each.bath} for each in steps],
     }

@@ -59,6 +59,8 @@ def test_a_file_for_each_plate(recipe: Path) -> None:
         "dots-3-ngerok.svg",
         "dots-4-mbironi.svg",
     ]
+    wax = files["dots-1-nglowong.svg"]["process"]["wax"]  # type: ignore[index]
+    assert "wax that stays on keeps one of them from its bath" in wax["add_only"]
     for name, told in files.items():
         page = read_svg(recipe.parent / "out" / name, "grid").artwork
         (layer,) = page.layers

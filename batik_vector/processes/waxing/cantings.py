@@ -53,7 +53,7 @@ def drawn_by(page: Artwork, areas: Geometries, cantings: Mapping[str, float]) ->
                 "metres": round(area / spout / 1000, 3),
             }
         )
-        left = shapely.difference(left, reached)
+        left = _areas(shapely.difference(left, reached))
     finer = float(shapely.area(shapely.intersection(left, window)))
     return {"cantings": told, "dots": _dots(areas, 1.5 * spouts[0][1]), "finer_mm2": round(finer, 1)}
 
@@ -79,8 +79,13 @@ def _reached(wax: shapely.Geometry, spout: float) -> shapely.Geometry:
     """Return what of wax a disc reaches that stays within."""
     inner = shapely.buffer(wax, -spout / 2 + HAIR / 4, quad_segs=QUARTER)
     grown = shapely.buffer(inner, spout / 2 + HAIR, quad_segs=QUARTER)
-    reached: shapely.Geometry = shapely.multipolygons(polygonal(shapely.intersection(grown, wax)))  # type: ignore[assignment]
-    return reached
+    return _areas(shapely.intersection(grown, wax))
+
+
+def _areas(found: shapely.Geometry) -> shapely.Geometry:
+    """Return what of a geometry is area: where areas touch, GEOS adds the lines and points they share."""
+    areas = polygonal(found)
+    return areas[0] if len(areas) == 1 else shapely.MultiPolygon(areas.tolist())
 
 
 def _dots(areas: Geometries, most: float) -> int:

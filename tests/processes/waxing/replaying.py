@@ -28,15 +28,21 @@ def dyed(page: Artwork, work: Iterable[Mapping[str, str]]) -> Cloth:
         if step["doing"] == "wax":
             wax = shapely.union(wax, next(plates))
         elif step["doing"] == "scrape":
-            wax = shapely.difference(wax, next(plates))
+            wax = areas(shapely.difference(wax, next(plates)))
         elif step["doing"] == "dye":
             after: dict[frozenset[str], list[shapely.Geometry]] = defaultdict(list)
             for seen, part in cloth.items():
-                after[seen].append(shapely.intersection(part, wax))
-                after[seen | {step["bath"]}].append(shapely.difference(part, wax))
+                after[seen].append(areas(shapely.intersection(part, wax)))
+                after[seen | {step["bath"]}].append(areas(shapely.difference(part, wax)))
             cloth = {seen: shapely.union_all(parts) for seen, parts in after.items()}
     assert next(plates, None) is None
     return cloth
+
+
+def areas(found: shapely.Geometry) -> shapely.Geometry:
+    """Return what of a geometry is area: where areas touch, GEOS adds lines and points."""
+    parts = shapely.get_parts(shapely.get_parts(found))
+    return shapely.union_all(parts[shapely.get_type_id(parts) == shapely.GeometryType.POLYGON])
 
 
 def painted(page: Artwork) -> Cloth:
@@ -45,8 +51,9 @@ def painted(page: Artwork) -> Cloth:
     box = shapely.box(0, 0, page.cell.width, page.cell.height)
     cloth: dict[frozenset[str], shapely.Geometry] = {page.dyeing.ground: box}
     for layer in page.layers:
-        over = shapely.intersection(shapely.union_all([*layer.areas, *_bodies(page, layer.ink.name)]), box)
-        cloth = {seen: shapely.difference(part, over) for seen, part in cloth.items()}
+        marks = shapely.union_all([*layer.areas, *_bodies(page, layer.ink.name)])
+        over = areas(shapely.intersection(marks, box))
+        cloth = {seen: areas(shapely.difference(part, over)) for seen, part in cloth.items()}
         seen = page.dyeing.inks[layer.ink.name]
         cloth[seen] = shapely.union(cloth.get(seen, shapely.Polygon()), over)
     return cloth
