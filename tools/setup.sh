@@ -198,7 +198,7 @@ clients_ready() {
     rm -f "$plotting/.unfinished"
     # What drives the browser on the studio's page.
     environment "$venv"
-    step "installing a driver of browsers into $venv (pip)" pip_install "$venv" playwright==1.65.2
+    step "installing a driver of browsers and axe into $venv (pip)" pip_install "$venv" playwright==1.65.2 axe-core-python==0.1.0
     rm -f "$venv/.unfinished"
 }
 

@@ -260,6 +260,18 @@ window.studio = (() => {
     if (text) window.emitEvent("studio-pasted", text);
   });
 
+  // Quasar's sliders say what they are on their root, and take the focus on a box inside it: who is read the page
+  // aloud would land on nothing. The box says the same.
+  function nameSlider(event) {
+    const box = event.target, root = box.parentElement;
+    if (!box.classList || !box.classList.contains("q-slider__track-container") || !root) return;
+    requestAnimationFrame(() => {
+      for (const name of ["role", "aria-label", "aria-valuemin", "aria-valuemax", "aria-valuenow"])
+        if (root.hasAttribute(name)) box.setAttribute(name, root.getAttribute(name));
+    });
+  }
+  for (const name of ["focusin", "keydown", "keyup"]) document.addEventListener(name, nameSlider);
+
   return {
     mount, show, fit, actual, zoom: (factor) => zoom(factor), choose, state: token,
     lines: (on) => { lines = on; applyLayers(); },
