@@ -19,7 +19,7 @@ from batik_vector.command.library_changes import (
     tag_command,
 )
 from batik_vector.command.library_options import as_json_option, file_option, report_of
-from batik_vector.command.telling import collecting, reported
+from batik_vector.command.telling import collecting, counted, reported
 
 if TYPE_CHECKING:
     from batik_vector.library import Library
@@ -247,9 +247,9 @@ def stats_command(path: str | None, as_json: bool) -> None:
             size = f"{stats.bytes / 1e6:,.1f} MB"
             click.echo(f"{stats.path}  {size}, schema {stats.schema}, SQLite {stats.sqlite}")
             click.echo(
-                f"{stats.patterns:,} patterns of your own, {stats.included:,} samples and starters, "
-                f"{stats.removed:,} removed; {stats.versions:,} versions, {stats.tags:,} tags, "
-                f"{stats.notes:,} notes"
+                f"{counted(stats.patterns, 'pattern')} of your own, {stats.included:,} samples and starters, "
+                f"{stats.removed:,} removed; {counted(stats.versions, 'version')}, "
+                f"{counted(stats.tags, 'tag')}, {counted(stats.notes, 'note')}"
             )
 
 

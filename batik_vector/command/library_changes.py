@@ -217,10 +217,12 @@ def _formats(words: str, folder: str) -> list[str]:
 def _zip(library: Library, names: Sequence[str], folder: Path, force: bool) -> dict[str, Any]:
     from batik_vector.export.files import write_all_whole
     from batik_vector.library.exchange import zipped
+    from batik_vector.making.jobs import make_folder
 
     wholes = {library.version(name).name: name for name in names}
     target = folder if folder.suffix.lower() == ".zip" else folder / "library.zip"
     _refuse_there([target], force)
+    make_folder(target.parent)
     count = 0
 
     def write(sink: Any) -> None:
@@ -238,6 +240,7 @@ def _files(
     """Write the files of patterns, all or none."""
     from batik_vector.export.files import write_all_whole
     from batik_vector.library.exchange import file_name, written
+    from batik_vector.making.jobs import make_folder
 
     places: dict[Path, tuple[Any, str]] = {}
     for name in dict.fromkeys(names):
@@ -250,10 +253,7 @@ def _files(
                 raise LibraryError(f"{both} would both be written to {target}")
             places[target] = version, format_
     _refuse_there(list(places), force)
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise ExportError(f"{folder} could not be made: {error.strerror}") from error
+    make_folder(folder)
     write_all_whole([(target, written(library, *what)) for target, what in places.items()])
     for target in places:
         click.echo(f"{target}", err=True)

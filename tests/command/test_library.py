@@ -74,7 +74,7 @@ def test_a_pattern_is_kept_found_changed_and_brought_back() -> None:
     assert call("library", "list", "--removed")[0].startswith("dots@3")
     call("library", "restore", "dots")
     assert "sound" in call("library", "check")[1]
-    assert "1 patterns of your own" in call("library", "stats")[0]
+    assert "1 pattern of your own" in call("library", "stats")[0]
     call("library", "remove", "dots", "--for-good")
     assert "no pattern" in call("library", "show", "dots", exit_code=2)[1]
 
@@ -156,6 +156,9 @@ def test_files_go_out_in_every_format_and_come_back(desk: Path) -> None:
     call("library", "export", "--all", "-o", "mine.zip")
     before = Path("mine.zip").read_bytes()
     call("library", "export", "--all", "-o", "mine.zip", "--force")
+    for place in ("fresh/library.zip", "another/deep/mine.zip"):
+        asked = ("-f", "zip", "-o", "fresh") if "fresh" in place else ("-o", place)
+        assert f"{place}  1 pattern, 1 version" in call("library", "export", "dots1", *asked)[1]
     assert Path("mine.zip").read_bytes() == before
     words = call("library", "add", "mine.zip", "out/dots2.pdf", "--library", "other.library")[1]
     assert words == ("dots1@1 saved\ndots2@1 saved\ndots2@1 is there already, and says the same\n")
