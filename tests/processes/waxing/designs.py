@@ -9,6 +9,7 @@ import shapely
 
 from batik_vector import compile_recipe
 from batik_vector.artwork import Artwork, Bath, Cell, Dyeing, Ink, Layer, Overlap
+from batik_vector.errors import RecipeError
 from batik_vector.geometry.curves import Circle, Petal, Star, Superellipse
 from batik_vector.recipe.dyeing import BathSpec
 from batik_vector.recipe.model import InkSpec, Placement, Recipe
@@ -48,7 +49,11 @@ def drawn(number: int) -> Artwork:
             for name, overlap in zip(inks, overlaps, strict=True)
         },
     )
-    return compile_recipe(recipe)
+    try:
+        return compile_recipe(recipe)
+    except RecipeError:
+        # Gaps and cuts may leave nothing: another design then.
+        return drawn(number + 100_003)
 
 
 def _motif(chance: Random, ink: str) -> Rosette:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from batik_vector.artwork import Artwork, violations
@@ -40,6 +40,7 @@ def shown(page: Artwork) -> Cloth:
 @long
 @settings(max_examples=examples(5, 150), deadline=None, derandomize=True)
 @given(st.integers(0, 10_000))
+@example(5924)  # wax that touches itself along a line
 def test_wax_replayed_gives_the_design_back(number: int) -> None:
     page = meeting(number)
     assert apart(replayed(page), painted(page)) < 1e-6
