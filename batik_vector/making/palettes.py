@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from batik_vector.errors import RecipeError, unknown_name
+from batik_vector.errors import Fault, RecipeError, unknown_name
 from batik_vector.making.variants import Axis
 from batik_vector.recipe.drawing import Svg
 from batik_vector.recipe.model import InkSpec, Recipe
@@ -73,8 +73,11 @@ def palette_axis(recipe: Recipe, names: Sequence[str]) -> Axis:
     """Return the axis that varies the palette.
 
     Raises:
-        RecipeError: where a name is none ("all" stands for all of them).
+        RecipeError: where a name is none ("all" stands for all of them), or baths give the colours.
     """
+    if recipe.bath:
+        words = "baths give this recipe its colours, and no palette can: vary theirs, as --vary"
+        raise RecipeError([Fault(f'{words} \'bath[0].colour="#27407a","#7a1d1c"\'', "bath")])
     wanted = list(PALETTES) if "all" in names else list(dict.fromkeys(names))
     for name in wanted:
         if name not in PALETTES:

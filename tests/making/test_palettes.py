@@ -46,6 +46,8 @@ def test_an_axis_of_palettes_names_its_variants() -> None:
         f"kawung_seed-{seed}_palette-{name}" for seed in (1, 2) for name in ("sogan", "kelengan")
     ]
     assert len(palette_axis(recipe, ["all"]).values) == len(PALETTES)
+    with pytest.raises(RecipeError, match=r"baths give this recipe its colours.*bath\[0\].colour"):
+        palette_axis(load_recipe(SAMPLES / "wax-javanese.toml"), ["sogan"])
     with pytest.raises(RecipeError, match='unknown palette "sogann": did you mean "sogan"'):
         palette_axis(recipe, ["sogann"])
 
