@@ -97,6 +97,19 @@ def _place(facts: Facts) -> str:
     return f"at {x:.3f}, {y:.3f} mm"
 
 
+def _trap(facts: Facts) -> Iterator[str]:
+    width = format_mm(facts["width_mm"])
+    for each in facts["pairs"]:
+        yield (
+            f"{each['ink']} spreads {width} mm under {each['under']} along {metres(each['length_mm'])}, "
+            f"{each['area_mm2']:,.2f} mm²"
+        )
+    if not facts["pairs"]:
+        yield 'no two inks meet side by side: there is nothing to trap (overlap = "knockout" cuts inks out)'
+    if facts["covered"]:
+        yield f"{_counted(facts['covered'], 'mark is', 'marks are')} covered whole by traps"
+
+
 def _cuts(facts: Facts) -> str:
     if not facts["contours"]:
         return "nothing is left to cut"
@@ -143,5 +156,6 @@ _TOLD: dict[str, Callable[[Facts], Iterator[str]]] = {
     "plot": _plot,
     "cut": _cut,
     "wax": _wax,
+    "trap": _trap,
 }
 """What tells of each process, by its kind."""

@@ -19,6 +19,7 @@ from batik_vector.fields import Between, Length, OneOf, Says, belongs, check
 from batik_vector.processes.cutting.choices import Inks, Keep, LineBodies, Narrow, Start, Turns
 from batik_vector.processes.hatching.options import AnyHatch
 from batik_vector.processes.stencilling.choices import Backing
+from batik_vector.processes.trapping.choices import By, Covered
 from batik_vector.processes.waxing.choices import CANTINGS, Plates, Removal
 from batik_vector.units import format_mm
 from batik_vector.values import frozen
@@ -358,8 +359,27 @@ class WaxProcess(ProcessSpec):
         return found
 
 
+@frozen(kw_only=True)
+class TrapProcess(ProcessSpec):
+    """Inks that meet side by side overlap a little: the one spreads under the other, across the seam too."""
+
+    kind = "trap"
+    module = "batik_vector.processes.trap"
+    of_tile = True
+
+    width: Annotated[
+        Annotated[Length, Between(0.01, 2)], Says("how far one ink spreads under the other where they meet")
+    ] = 0.3
+    by: Annotated[
+        By, Says("what spreads: the lighter of two inks (lightness), or the one printed first (order)")
+    ] = By.LIGHTNESS
+    covered: Annotated[
+        Covered, Says("marks so narrow that a trap would cover them whole are refused, or accepted")
+    ] = Covered.REFUSE
+
+
 PROCESSES: dict[str, type[ProcessSpec]] = {
-    each.kind: each for each in (PlotProcess, CutProcess, StencilProcess, WaxProcess)
+    each.kind: each for each in (PlotProcess, CutProcess, StencilProcess, WaxProcess, TrapProcess)
 }
 """The catalogue of processes."""
 

@@ -101,6 +101,8 @@ BEYOND = {
         "bridges of no breadth",
         "bridges broader than an island",
         "a stencil after a cut",
+        "a trap of no breadth",
+        "a trap after a cut",
         "islands of no size",
         "necks of no breadth",
         "tabs of no breadth",

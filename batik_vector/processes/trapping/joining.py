@@ -1,0 +1,127 @@
+"""Joining: areas with what they gain, as areas that do not overlap, on whole steps and alike on both sides of
+the seam.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+import shapely
+
+from batik_vector.artwork import Cell
+from batik_vector.artwork.page import Border
+from batik_vector.geometry.outlines import Index, Steps
+from batik_vector.geometry.regions import oriented, polygonal
+from batik_vector.geometry.sampling import Geometries
+
+MEND = 2.0
+"""Steps by which what meets across an edge of the tile may miss, since its two sides were rounded apart."""
+CRUMB = 4.0
+"""Steps of breadth, on average, below which an area is nothing that could be printed."""
+
+
+def grown(
+    areas: Geometries, drawn: Geometries, names: Sequence[str], traps: Geometries, cell: Cell
+) -> tuple[Geometries, tuple[str, ...]]:
+    """Return areas joined with traps, and their names.
+
+    Args:
+        areas: of one ink, in steps, that do not overlap, with corners where others have them.
+        drawn: the same as they were drawn: they stay so where they gain nothing.
+        names: of the areas.
+        traps: what they gain; each touches an area, or does so across the seam.
+        cell: of the tile.
+    """
+    met = np.zeros(len(areas), bool)
+    met[shapely.STRtree(areas).query(traps, predicate="intersects")[1]] = True
+    joined = polygonal(shapely.union_all(np.concatenate([areas[met], traps])))
+    joined = _mended(_rounded(joined), cell)
+    joined = joined[2 * shapely.area(joined) >= CRUMB * shapely.length(joined)]
+    # A joined area stands where the first of those stood that are in it.
+    number = np.flatnonzero(met)
+    inside = shapely.get_coordinates(shapely.point_on_surface(areas[met]))
+    at, into = shapely.STRtree(joined).query(shapely.points(inside), predicate="intersects")
+    first = np.full(len(joined), len(areas))
+    np.minimum.at(first, into, number[at])
+    rest = np.flatnonzero(~met)
+    order = np.lexsort([np.arange(len(rest) + len(joined)), np.concatenate([rest, first])])
+    every = np.concatenate([drawn[rest], oriented(joined)])[order]
+    # What goes on across the seam alone has the name of no area here.
+    named = [*names, names[0] if len(names) else ""]
+    return every, tuple(named[each] for each in np.concatenate([rest, first])[order].tolist())
+
+
+def _rounded(areas: Geometries) -> Geometries:
+    """Return polygons on whole steps, still valid."""
+    snapped = np.asarray(shapely.transform(areas, lambda xy: np.floor(xy + 0.5)), dtype=object)
+    sound = np.asarray(shapely.is_valid(snapped), bool)
+    good = np.asarray(shapely.remove_repeated_points(snapped[sound]), dtype=object)
+    if sound.all():
+        return good
+    return np.concatenate([good, polygonal(shapely.set_precision(areas[~sound], 1))])
+
+
+def _mended(areas: Geometries, cell: Cell) -> Geometries:
+    """Return areas of which the corners on far edges of the tile lie where their twins on near ones do."""
+    for axis, (slip, size, long) in enumerate(_sides(cell)):
+        coords = shapely.get_coordinates(areas)
+        near = np.unique(coords[coords[:, axis] == 0][:, 1 - axis])
+        far = np.flatnonzero(coords[:, axis] == size)
+        if not len(near) or not len(far):
+            continue
+        along = coords[far, 1 - axis] - slip
+        twins = np.concatenate([near - long, near, near + long])
+        place = np.clip(np.searchsorted(twins, along), 1, len(twins) - 1)
+        left, right = twins[place - 1], twins[place]
+        off = np.where(along - left <= right - along, left, right) - along
+        move = np.where(np.abs(off) <= MEND, off, 0.0)
+        if move.any():
+            coords[far, 1 - axis] = np.clip(coords[far, 1 - axis] + move, 0, long)
+            areas = _rounded(shapely.set_coordinates(np.array(areas, dtype=object), coords))
+    return areas
+
+
+def _sides(cell: Cell) -> tuple[tuple[int, int, int], tuple[int, int, int]]:
+    """Return of the far side across each axis how far it has slipped, where it is, and how long it is."""
+    (_, up), (right, _) = cell.lattice
+    return (up, cell.columns, cell.rows), (right, cell.rows, cell.columns)
+
+
+def seam_borders(ink: str, areas: Geometries, cell: Cell) -> frozenset[Border]:
+    """Return the stretches of the seam along which areas of an ink end on one side alone."""
+    rings = shapely.get_rings(areas)
+    coords, ring = shapely.get_coordinates(rings, return_index=True)
+    points = np.rint(coords).astype(np.int64)
+    same = ring[1:] == ring[:-1]
+    begin, end = points[:-1][same], points[1:][same]
+    found = set[Border]()
+    for axis, (slip, size, long) in enumerate(_sides(cell)):
+        near = _along(begin, end, axis, 0)
+        far = _along(begin, end, axis, size) - slip
+        far = np.concatenate([far, far + long])
+        far = far[(far[:, 1] > 0) & (far[:, 0] < long)].clip(0, long)
+        found |= {(ink, axis, low, high) for low, high in _once(near, far)}
+    return frozenset(found)
+
+
+def _along(begin: Steps, end: Steps, axis: int, at: int) -> Steps:
+    """Return the stretches of edges that run along a line, from their lower ends to their higher ones."""
+    on = (begin[:, axis] == at) & (end[:, axis] == at)
+    ends = np.column_stack([begin[on, 1 - axis], end[on, 1 - axis]])
+    return np.sort(ends, axis=1)
+
+
+def _once(near: Steps, far: Steps) -> Iterator[tuple[int, int]]:
+    """Yield the longest stretches that are in one of two sets alone."""
+    ends = np.concatenate([near, far]).ravel()
+    steps = np.tile([1, -1], len(near) + len(far))
+    side = np.repeat([0, 1], [2 * len(near), 2 * len(far)])
+    places, which = np.unique(ends, return_inverse=True)
+    count = np.zeros((2, len(places)), np.int64)
+    np.add.at(count, (side, which.ravel()), steps)
+    one, other = np.cumsum(count, axis=1) > 0
+    apart = one != other
+    begun: Index = np.flatnonzero(apart & ~np.append(False, apart[:-1]))
+    ended: Index = np.flatnonzero(~apart & np.append(False, apart[:-1]))
+    yield from zip(places[begun].tolist(), places[ended].tolist(), strict=True)
