@@ -21,7 +21,7 @@ from batik_vector.recipe.references import INK_KEYS, Path, dotted, ink_names, pl
 from batik_vector.studio.declared import MISSING, Place, class_of, inner, root
 from batik_vector.studio.drafts import Draft, Where, parsed
 from batik_vector.studio.offers import free_name
-from batik_vector.studio.rewriting import spelled_key
+from batik_vector.studio.text.spelling import spelled_key
 from batik_vector.units import parse_length
 
 FILLING = ("toss", "stripes")

@@ -117,3 +117,18 @@ def kind_of(hint: Hint, cls: type) -> str:
     """Return the name that a catalogue has for a class."""
     assert hint.one_of is not None
     return next((name for name, known in hint.one_of.load().items() if known is cls), "")
+
+
+def is_scalar(hint: Hint) -> bool:
+    """Return whether a value is a number, a word, a switch, or a pair of such."""
+    if hint.one_of is not None or hint.item is not None:
+        return False
+    if hint.items:
+        return all(is_scalar(each) for each in hint.items)
+    return not dataclasses.is_dataclass(hint.base)
+
+
+def plain_list(hint: Hint) -> bool:
+    """Return whether a list holds numbers or words, and no tables."""
+    item = hint.item
+    return item is not None and hint.origin is not dict and (is_scalar(item) or plain_list(item))

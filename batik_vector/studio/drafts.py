@@ -25,10 +25,10 @@ from batik_vector.recipe.reading.lines import parse_path
 from batik_vector.recipe.reading.sources import parted, read_text, scheme_of, stem_of, with_carried
 from batik_vector.recipe.reading.tables import tables_of
 from batik_vector.recipe.references import Path, dotted
-from batik_vector.studio import rewriting
 from batik_vector.studio.declared import MISSING, Place, inner, place_at, plain
 from batik_vector.studio.offers import kinded, known_keys
-from batik_vector.studio.spelling import as_written
+from batik_vector.studio.text import rewriting
+from batik_vector.studio.text.spelling import as_written
 from batik_vector.units import parse_length
 from batik_vector.values import frozen
 

@@ -13,7 +13,6 @@ removed, and where it holds a list more can be added. What a control gives goes 
 from __future__ import annotations
 
 import dataclasses
-import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
@@ -23,9 +22,10 @@ from batik_vector.recipe.model import Recipe
 from batik_vector.recipe.reading.faults import keyed
 from batik_vector.recipe.reading.field_types import Hint, members
 from batik_vector.recipe.references import INK_KEYS, Path, dotted
-from batik_vector.studio.declared import MISSING, Place, class_of, inner, kind_of, root
+from batik_vector.studio.declared import MISSING, Place, class_of, inner, is_scalar, kind_of, plain_list, root
 from batik_vector.studio.drafts import Draft, middle_of
 from batik_vector.studio.offers import Offer, offers, suggestions
+from batik_vector.studio.sliders import span_of, step_of
 from batik_vector.units import parse_length
 from batik_vector.values import frozen
 
@@ -38,14 +38,6 @@ PANELS: Mapping[str, tuple[str, ...]] = {
     "outputs": ("output",),
 }
 """The panels in their order, the paper's two first, and what of the recipe each shows; "" is its own keys."""
-STEPS = 200
-"""Steps of a slider, at least."""
-FEW = 100
-"""Whole numbers of which a slider takes all."""
-LENGTH = 10.0
-"""mm that a slider reaches for a length of which nothing is known."""
-TURNED = 180.0
-"""Degrees that sliders of angles reach on both sides."""
 
 
 @frozen
@@ -192,7 +184,7 @@ class _Walk:
         """Return the recipe's own keys: its title, tolerance and so on."""
         found: list[Control] = []
         for name, member in members(Recipe).items():
-            if _is_scalar(member.hint) and (place := inner(whole, name)) is not None:
+            if is_scalar(member.hint) and (place := inner(whole, name)) is not None:
                 found += self._controls(place, (name,))
         return Group("", "design", "the recipe as a whole", tuple(found))
 
@@ -266,9 +258,9 @@ class _Walk:
             inside = inner(place, name)
             if inside is None:
                 continue
-            if _is_scalar(member.hint):
+            if is_scalar(member.hint):
                 found += self._controls(inside, (*path, name))
-            elif member.hint.item is None or not _plain_list(member.hint):
+            elif member.hint.item is None or not plain_list(member.hint):
                 groups.append(self._group(inside, (*path, name), optional=not member.required))
             else:
                 found.append(self._list(inside, (*path, name)))
@@ -320,7 +312,7 @@ class _Walk:
         kind = kind or ("choice" if path[-1] in INK_KEYS else _kind_of(hint, bool(choices)))
         least, most = (hint.bounds.low, hint.bounds.high) if hint.bounds else (None, None)
         useful = (hint.useful.low, hint.useful.high) if hint.useful else None
-        span = _span(hint, useful, value, default, angle) if kind in ("number", "whole") else None
+        span = span_of(hint, useful, value, default, angle) if kind in ("number", "whole") else None
         return Control(
             dotted(path),
             kind,
@@ -332,7 +324,7 @@ class _Walk:
             most,
             useful,
             span,
-            _step(hint, span) if span else None,
+            step_of(hint, span) if span else None,
             choices,
             default,
             value,
@@ -370,21 +362,6 @@ def _is_needed(place: Place) -> bool:
     return place.default is MISSING
 
 
-def _is_scalar(hint: Hint) -> bool:
-    """Return whether a value is a number, a word, a switch, or a pair of such."""
-    if hint.one_of is not None or hint.item is not None:
-        return False
-    if hint.items:
-        return all(_is_scalar(each) for each in hint.items)
-    return not dataclasses.is_dataclass(hint.base)
-
-
-def _plain_list(hint: Hint) -> bool:
-    """Return whether a list holds numbers or words, and no tables."""
-    item = hint.item
-    return item is not None and hint.origin is not dict and (_is_scalar(item) or _plain_list(item))
-
-
 def _kind_of(hint: Hint, offered: bool) -> str:
     if hint.base is bool:
         return "switch"
@@ -416,37 +393,3 @@ def _label(path: Path, around: Place | None) -> str:
         return str(path[-1]).replace("_", " ")
     number, name = int(path[-1]), str(path[-2]).replace("_", " ")
     return f"{name} {'xyzuvw'[number]}" if len(around.hint.items) <= 6 else f"{name} {number + 1}"
-
-
-def _span(
-    hint: Hint, useful: tuple[float, float] | None, value: Any, default: Any, angle: bool
-) -> tuple[float, float]:
-    """Return the ends of a slider, which hold the value in any case."""
-    low, high = (hint.bounds.low, hint.bounds.high) if hint.bounds else (-math.inf, math.inf)
-    held = [float(each) for each in (value, default) if _is_number(each)]
-    ends = useful
-    if ends is None and angle:
-        ends = max(low, -TURNED), min(high, TURNED)
-    if ends is None and hint.base is int and high - low <= FEW:
-        ends = low, high
-    if ends is None:
-        usual = LENGTH if hint.length else 1.0
-        most = _round_up(max(2 * abs(held[-1]) if held else 0.0, 10 * max(low, 0.0)) or usual)
-        ends = max(low, -most if low < 0 else 0.0), min(high, most)
-    return max(low, min([ends[0], *held])), min(high, max([ends[1], *held]))
-
-
-def _is_number(value: Any) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
-
-
-def _round_up(value: float) -> float:
-    """Return the next of 1, 2, 5, 10, 20 …"""
-    size = 10.0 ** math.floor(math.log10(value))
-    return next(size * each for each in (1, 2, 5, 10) if size * each >= value * (1 - 1e-9))
-
-
-def _step(hint: Hint, span: tuple[float, float]) -> float:
-    if hint.base is int:
-        return 1
-    return _round_up(max(span[1] - span[0], 1e-6) / STEPS) / 2 if span[1] > span[0] else 1.0

@@ -21,7 +21,7 @@ from batik_vector.studio.changes import (
 from batik_vector.studio.drafts import Draft
 from batik_vector.studio.mirroring import mirrored
 from tests.studio.test_drafts import FLOWER
-from tests.studio.test_rewriting import comments
+from tests.studio.text.test_rewriting import comments
 
 SAMPLES = Path(__file__).parents[2] / "samples"
 

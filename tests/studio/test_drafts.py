@@ -10,7 +10,7 @@ from batik_vector.errors import RecipeError
 from batik_vector.studio.drafts import Draft, changes_between
 from batik_vector.studio.history import History, Patch
 from batik_vector.studio.parameters import Control, controls
-from tests.studio.test_rewriting import TEXTS, comments
+from tests.studio.text.test_rewriting import TEXTS, comments
 from tests.thorough import examples, long
 
 ROOT = Path(__file__).parents[2]

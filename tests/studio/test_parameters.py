@@ -8,7 +8,7 @@ from batik_vector.errors import Fault, RecipeError
 from batik_vector.studio.drafts import Draft
 from batik_vector.studio.parameters import PANELS, Control, Group, controls, panels
 from tests.studio.test_drafts import FLOWER
-from tests.studio.test_rewriting import TEXTS
+from tests.studio.text.test_rewriting import TEXTS
 
 
 def test_a_control_says_what_is_declared() -> None:

@@ -12,7 +12,7 @@ from nicegui.elements.mixins.value_element import ValueElement
 
 from batik_vector.studio.offers import COLOURS
 from batik_vector.studio.page.parts import group, icon_button, say, text, told
-from batik_vector.studio.rewriting import spelled
+from batik_vector.studio.text.spelling import spelled
 
 if TYPE_CHECKING:
     from batik_vector.studio.page.session import Session

@@ -8,52 +8,29 @@ again and compared with what it was to say; where the text is written in a way t
 from __future__ import annotations
 
 import copy
-import math
 import re
 import tomllib
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from batik_vector.recipe.reading.lines import Spans, spans
-from batik_vector.recipe.references import Path, quoted
+from batik_vector.recipe.reading.lines import spans
+from batik_vector.recipe.references import Path
+from batik_vector.studio.text.places import (
+    CannotRewriteError as CannotRewriteError,
+)
+from batik_vector.studio.text.places import (
+    Span,
+    block_start,
+    blocks_in,
+    blocks_of,
+    items_of,
+    line_end,
+    own_lines,
+)
+from batik_vector.studio.text.spelling import spelled, spelled_key
 
-_BARE = re.compile(r"[A-Za-z0-9_-]+\Z")
 _WIDE = 118
 """Characters of a line past which a table is written with its keys on lines of their own."""
-Span = tuple[int, int]
-
-
-class CannotRewriteError(ValueError):
-    """A change that has no meaning in a text, such as to take out what is not there."""
-
-
-def spelled(value: Any) -> str:
-    """Return a value as TOML writes it on one line.
-
-    Raises:
-        ValueError: where TOML has no such value.
-    """
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, str):
-        return quoted(value)
-    if isinstance(value, int):
-        return str(int(value))
-    if isinstance(value, float):
-        if not math.isfinite(value):
-            raise ValueError(f"{value}, expected a number that is finite")
-        return repr(float(value))
-    if isinstance(value, list | tuple):
-        return "[" + ", ".join(map(spelled, value)) + "]"
-    if isinstance(value, dict):
-        pairs = ", ".join(f"{spelled_key(str(key))} = {spelled(each)}" for key, each in value.items())
-        return f"{{ {pairs} }}" if pairs else "{}"
-    raise ValueError(f"a value of type {type(value).__name__}, expected what TOML can say")
-
-
-def spelled_key(key: str) -> str:
-    """Return a key as TOML writes it."""
-    return key if _BARE.match(key) else quoted(key)
 
 
 def with_value(text: str, path: Path, value: Any) -> str:
@@ -182,7 +159,7 @@ def member_text(text: str, path: Path) -> str:
     if path in known.values:
         start, end = known.values[path]
         return text[start:end]
-    blocks = _blocks_of(text, known, path)
+    blocks = blocks_of(text, known, path)
     return text[blocks[0] : blocks[1]].strip("\n") + "\n" if blocks else ""
 
 
@@ -264,7 +241,7 @@ def _added(text: str, around: Path, key: str, value: Any) -> str:
             raise CannotRewriteError("no table stands there")
         inner = text[start + 1 : end - 1].rstrip()
         return f"{text[:start]}{{{inner}{', ' if inner.strip() else ' '}{pair} }}{text[end:]}"
-    begin, stop = _own_lines(text, known, around)
+    begin, stop = own_lines(text, known, around)
     if not around and isinstance(value, dict):
         raise CannotRewriteError("tables of the root have headers")
     ends = [end for start, end in known.values.values() if begin <= start < stop]
@@ -273,7 +250,7 @@ def _added(text: str, around: Path, key: str, value: Any) -> str:
     last = max(ends)
     mine = [start for path, start in known.starts.items() if len(path) == len(around) + 1]
     lines = [text[start:last].partition("\n")[0] for start in mine if begin <= start < stop]
-    return _line_in(text, _line_end(text, last), _aligned(key, pair, lines))
+    return _line_in(text, line_end(text, last), _aligned(key, pair, lines))
 
 
 def _aligned(key: str, pair: str, lines: Sequence[str]) -> str:
@@ -282,24 +259,6 @@ def _aligned(key: str, pair: str, lines: Sequence[str]) -> str:
     name = spelled_key(key)
     column = columns.pop() if len(columns) == 1 and len(lines) > 1 else 0
     return name.ljust(column - 1) + pair[len(name) :] if column > len(name) else pair
-
-
-def _own_lines(text: str, known: Spans, table: Path) -> Span:
-    """Return where the keys of a table stand: from behind its header to the next one."""
-    starts = [start for start, _ in known.headers]
-    if not table:
-        return 0, _block_start(text, starts[0]) if starts else len(text)
-    for number, (start, path) in enumerate(known.headers):
-        if path == table:
-            stop = starts[number + 1] if number + 1 < len(starts) else len(text)
-            return _line_end(text, start), stop
-    raise CannotRewriteError("the table has no header")
-
-
-def _line_end(text: str, at: int) -> int:
-    """Return where the next line begins."""
-    found = text.find("\n", at)
-    return len(text) if found < 0 else found + 1
 
 
 def _line_in(text: str, at: int, line: str) -> str:
@@ -318,7 +277,7 @@ def _headed(text: str, path: Path, value: Any, written: str = "") -> str:
     alike = [place for place, (_, at) in enumerate(known.headers) if at[: len(path) - 1] == path[:-1]]
     at = len(text)
     if len(path) > 1 and alike and alike[-1] + 1 < len(known.headers):
-        at = _block_start(text, known.headers[alike[-1] + 1][0])
+        at = block_start(text, known.headers[alike[-1] + 1][0])
     return _block_at(text, at, written or _block(path, value, False))
 
 
@@ -345,44 +304,12 @@ def _block_at(text: str, at: int, block: str) -> str:
     return "\n\n".join(parts) + "\n"
 
 
-def _block_start(text: str, at: int) -> int:
-    """Return where the comment begins that stands right above a header."""
-    while at > 0:
-        above = text.rfind("\n", 0, at - 1) + 1
-        if not text[above : at - 1].lstrip().startswith("#") or at < 2:
-            return at
-        at = above
-    return at
-
-
-def _blocks_of(text: str, known: Spans, path: Path) -> Span | None:
-    """Return from where to where a table's headers and those within it stand, comments above included.
-
-    None where others stand between them.
-    """
-    mine = [number for number, (_, each) in enumerate(known.headers) if each[: len(path)] == path]
-    if not mine or mine != list(range(mine[0], mine[-1] + 1)):
-        return None
-    first = _block_start(text, known.headers[mine[0]][0])
-    after = mine[-1] + 1
-    last = _block_start(text, known.headers[after][0]) if after < len(known.headers) else len(text)
-    return first, last
-
-
 def _inserted_block(text: str, path: Path, place: int, block: str) -> str:
     known = spans(text)
-    blocks = _members(text, known, path)
+    blocks = blocks_in(text, known, path)
     if place < len(blocks):
         return _block_at(text, blocks[place][0], block)
     return _block_at(text, blocks[-1][1] if blocks else len(text), block)
-
-
-def _members(text: str, known: Spans, path: Path) -> list[Span]:
-    """Return the blocks of a list's members."""
-    found: list[Span] = []
-    while (span := _blocks_of(text, known, (*path, len(found)))) is not None:
-        found.append(span)
-    return found
 
 
 # Members of what is written in place.
@@ -391,7 +318,7 @@ def _members(text: str, known: Spans, path: Path) -> list[Span]:
 def _inserted_in_place(text: str, path: Path, place: int, written: str) -> str:
     known = spans(text)
     start, end = known.values[path]
-    items = _items(known, path)
+    items = items_of(known, path)
     if not items:
         return f"{text[:start]}[{written}]{text[end:]}"
     first = items[0][0]
@@ -405,18 +332,11 @@ def _inserted_in_place(text: str, path: Path, place: int, written: str) -> str:
     return f"{text[:at]},{gap}{written}{text[at:]}"
 
 
-def _items(known: Spans, path: Path) -> list[Span]:
-    found: list[Span] = []
-    while (span := known.values.get((*path, len(found)))) is not None:
-        found.append(span)
-    return found
-
-
 def _cut_out(text: str, path: Path) -> str:
     """Return the text without a key, a member or a block."""
     known = spans(text)
     if path not in known.values:
-        blocks = _blocks_of(text, known, path)
+        blocks = blocks_of(text, known, path)
         if blocks is None:
             raise CannotRewriteError("it stands in several places")
         return text[: blocks[0]] + text[blocks[1] :]
@@ -426,12 +346,12 @@ def _cut_out(text: str, path: Path) -> str:
         start = known.starts[path]
         return _cut_from(text, known.values[around], start, end)
     start = text.rfind("\n", 0, known.starts[path]) + 1
-    return text[:start] + text[_line_end(text, end) :]
+    return text[:start] + text[line_end(text, end) :]
 
 
 def _cut_from(text: str, around: Span, start: int, end: int) -> str:
     """Return the text without a member of what is written in place, and without its comma."""
-    line, stop = text.rfind("\n", 0, start) + 1, _line_end(text, end)
+    line, stop = text.rfind("\n", 0, start) + 1, line_end(text, end)
     rest = text[end:stop]
     alone = line > around[0] and not text[line:start].strip() and stop <= around[1]
     if alone and re.fullmatch(r"\s*,?\s*(#[^\n]*)?\n", rest):
@@ -451,7 +371,7 @@ def _permuted(text: str, path: Path, names: Sequence[Any], order: Sequence[Any])
         member = (*path, name)
         if member in known.values:
             slots.append((known.starts[member], known.values[member][1]))
-        elif (span := _blocks_of(text, known, member)) is not None:
+        elif (span := blocks_of(text, known, member)) is not None:
             slots.append((span[0], span[0] + len(text[span[0] : span[1]].rstrip())))
         else:
             raise CannotRewriteError("it stands in several places")

@@ -12,19 +12,19 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from batik_vector.recipe.references import Path as Way
-from batik_vector.studio import rewriting
-from batik_vector.studio.rewriting import (
+from batik_vector.studio.text import rewriting
+from batik_vector.studio.text.rewriting import (
     CannotRewriteError,
     inserted,
     member_text,
     moved,
-    spelled,
     with_value,
     without,
 )
+from batik_vector.studio.text.spelling import spelled
 from tests.thorough import examples, long
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 TEXTS = {
     path.stem: path.read_text(encoding="utf-8")
     for folder in ("samples", "batik_vector/starters")

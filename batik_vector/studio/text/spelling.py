@@ -2,15 +2,47 @@
 
 from __future__ import annotations
 
+import math
 import re
 from typing import Any
 
 from batik_vector.recipe.reading.field_types import Hint
+from batik_vector.recipe.references import quoted
 from batik_vector.units import MM_PER_UNIT
 
 FIGURES = 6
 """Significant figures of numbers that sliders give."""
+_BARE = re.compile(r"[A-Za-z0-9_-]+\Z")
 _UNIT = re.compile(r"^\s*([+-]?[0-9.]+(?:[eE][+-]?\d+)?)(\s*)([a-zA-Zµ\"]*)\s*$")
+
+
+def spelled(value: Any) -> str:
+    """Return a value as TOML writes it on one line.
+
+    Raises:
+        ValueError: where TOML has no such value.
+    """
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return quoted(value)
+    if isinstance(value, int):
+        return str(int(value))
+    if isinstance(value, float):
+        if not math.isfinite(value):
+            raise ValueError(f"{value}, expected a number that is finite")
+        return repr(float(value))
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(map(spelled, value)) + "]"
+    if isinstance(value, dict):
+        pairs = ", ".join(f"{spelled_key(str(key))} = {spelled(each)}" for key, each in value.items())
+        return f"{{ {pairs} }}" if pairs else "{}"
+    raise ValueError(f"a value of type {type(value).__name__}, expected what TOML can say")
+
+
+def spelled_key(key: str) -> str:
+    """Return a key as TOML writes it."""
+    return key if _BARE.match(key) else quoted(key)
 
 
 def as_written(hint: Hint, value: Any, before: Any = None) -> Any:

@@ -1,0 +1,1 @@
+"""The text of a recipe: changed without a change to what is not meant, values spelled as those before."""
