@@ -28,7 +28,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
-from tools.numeric_keys import keys, recipe_with
+from tools.numeric_keys import Key, keys, recipe_with
 
 RECIPES = ("four-square", "kawung", "lotus-pond", "group-p4g")
 HEARD = 2.0
@@ -37,12 +37,17 @@ HEARD = 2.0
 
 @dataclass(frozen=True)
 class Try:
-    """One recipe, to be compiled."""
+    """One recipe, to be compiled. It is written when it is tried: there are a hundred thousand."""
 
     recipe: str
-    key: str
+    key: Key
     value: float
-    text: str
+
+    @property
+    def text(self) -> str:
+        """The recipe."""
+        chance = random.Random(f"{self.recipe} {self.key} {self.value}")
+        return recipe_with(self.recipe, self.key, self.value, chance)
 
 
 @dataclass(frozen=True)
@@ -67,9 +72,8 @@ def tries(recipes: Sequence[str], count: int, only: str) -> Iterator[Try]:
         if only not in str(key):
             continue
         for recipe in recipes:
-            chance = random.Random(f"{recipe} {key}")
             for value in key.values(count):
-                yield Try(recipe, str(key), value, recipe_with(recipe, key, value, chance))
+                yield Try(recipe, key, value)
 
 
 def tried(each: Try, seconds: float, gigabytes: float) -> Outcome:
