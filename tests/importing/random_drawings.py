@@ -71,7 +71,7 @@ def paints(draw: st.DrawFn, patterned: bool) -> str:
 
 @st.composite
 def clip_paths(draw: st.DrawFn, name: str, inner: str) -> str:
-    # resvg 0.5.0 measures a clip of a clip by the first mark's box alone, so a clip in shares clips marks only.
+    # resvg 0.5.0 measures a clip of a clip by the first mark's box, so one in shares clips marks alone.
     boxed = bool(inner) and draw(st.integers(0, 2)) == 0
     units = ' clipPathUnits="objectBoundingBox"' if boxed else ""
     if boxed:

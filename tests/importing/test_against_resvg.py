@@ -20,8 +20,8 @@ from tests.thorough import examples, long
 
 PX_PER_MM = 4
 PATTERNED_PX_PER_MM = 16
-"""resvg draws a pattern's cell once, in whole pixels, and lays it down turned: with few pixels a seventh of what
-it covers may be missing."""
+"""resvg draws a pattern's cell once, in whole pixels, and lays it down turned: with few pixels a seventh of
+what it covers may be missing."""
 
 
 def painted(inner: str) -> float:
