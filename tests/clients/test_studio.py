@@ -154,7 +154,7 @@ def test_nothing_is_clipped_and_everything_has_a_name(
         page.slider(PETAL).wait_for()
         page.page.locator(".status .good").wait_for()
         page.page.wait_for_function(
-            "[...document.querySelectorAll('.left img')].slice(0, 8).every(e => e.complete)"
+            "[...document.querySelectorAll('.left img')].slice(0, 12).every(e => e.complete)"
         )
         page.page.mouse.move(size[0] / 2, size[1] / 2)
         page.page.wait_for_timeout(500)
