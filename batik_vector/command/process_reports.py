@@ -100,10 +100,9 @@ def _place(facts: Facts) -> str:
 def _trap(facts: Facts) -> Iterator[str]:
     width = format_mm(facts["width_mm"])
     for each in facts["pairs"]:
-        yield (
-            f"{each['ink']} spreads {width} mm under {each['under']} along {metres(each['length_mm'])}, "
-            f"{each['area_mm2']:,.2f} mm²"
-        )
+        yield f"{each['ink']} spreads {width} mm under {each['under']} along {metres(each['length_mm'])}"
+    for each in facts["gains"]:
+        yield f"{each['ink']} gains {each['area_mm2']:,.2f} mm²"
     if not facts["pairs"]:
         yield 'no two inks meet side by side: there is nothing to trap (overlap = "knockout" cuts inks out)'
     if facts["covered"]:

@@ -52,12 +52,15 @@ def apply(page: Page, spec: TrapProcess, machine: Machine) -> Artwork:
     drawn = [oriented(_in_steps(layer.areas)) for layer in page.layers]
     areas = _with_corners(drawn)
     found, facts = _traps(areas, [layer.ink for layer in page.layers], page.cell, spec)
-    layers = list(page.layers)
+    layers, gains = list(page.layers), list[dict[str, Any]]()
     borders = page.borders
     for number, traps in enumerate(found):
         if len(traps):
+            before = float(shapely.area(layers[number].areas).sum())
             layers[number] = _with(layers[number], areas[number], drawn[number], traps, page.cell)
             ink = layers[number].ink.name
+            more = float(shapely.area(layers[number].areas).sum()) - before
+            gains.append({"ink": ink, "area_mm2": round(more, 3)})
             borders = frozenset(each for each in borders if each[0] != ink)
             borders |= seam_borders(ink, _in_steps(layers[number].areas), page.cell)
     done = (*page.provenance.processes, str(spec))
@@ -66,7 +69,7 @@ def apply(page: Page, spec: TrapProcess, machine: Machine) -> Artwork:
         layers=tuple(layers),
         borders=borders,
         provenance=replace(page.provenance, processes=done),
-        facts={"trap": {"width_mm": spec.width, "by": str(spec.by.value), **facts}},
+        facts={"trap": {"width_mm": spec.width, "by": str(spec.by.value), **facts, "gains": gains}},
     )
 
 
@@ -105,7 +108,7 @@ def _traps(
     meet = meetings([of_polygons(each) for each in areas], cell)
     gains = [[np.empty(0, dtype=object)] for _ in areas]
     under: list[list[Spread]] = [[] for _ in areas]
-    pairs = []
+    pairs = list[dict[str, Any]]()
     for one, other in spreads_under(inks, spec.by):
         lines = meet.lines[(meet.left == one) & (meet.right == other)]
         if not len(lines):
@@ -122,7 +125,6 @@ def _traps(
                 "ink": inks[one].name,
                 "under": inks[other].name,
                 "length_mm": round(length / STEPS_PER_MM, 2),
-                "area_mm2": round(_covers(traps.areas) / STEPS_PER_MM**2, 3),
             }
         )
     covered = [
@@ -134,10 +136,6 @@ def _traps(
     if covered and spec.covered is Covered.REFUSE:
         raise _too_broad(covered, spec)
     return [np.concatenate(each) for each in gains], {"pairs": pairs, "covered": len(covered)}
-
-
-def _covers(traps: Geometries) -> float:
-    return float(shapely.area(shapely.union_all(traps)))
 
 
 def _all(each: Sequence[Spread]) -> Spread:

@@ -66,7 +66,7 @@ def test_a_trapped_tile_passes_its_check_and_tells_what_it_went_through(recipe: 
     assert (pair["ink"], pair["under"]) == ("straw", "indigo")
     layers = {each.ink.name: shapely.union_all(each.areas) for each in read_svg(file["path"]).artwork.layers}  # type: ignore[arg-type]
     overlap = shapely.intersection(layers["straw"], layers["indigo"])
-    assert overlap.area == pytest.approx(pair["area_mm2"], abs=0.01)
+    assert overlap.area == pytest.approx(trap["gains"][0]["area_mm2"], abs=0.01)
     done = runner().invoke(cli, ["check", str(file["path"])])
     assert done.exit_code == 0, done.stdout + done.stderr
     assert "went through trap width=0.4" in done.stdout + done.stderr
@@ -95,7 +95,8 @@ def test_traps_come_before_the_tile_is_repeated_and_filled_into_cloth(recipe: Pa
     assert pair_of(cloth) == one
     layers = {each.ink.name: shapely.union_all(each.areas) for each in read_svg(cloth["path"]).artwork.layers}  # type: ignore[arg-type]
     overlap = shapely.intersection(layers["straw"], layers["indigo"]).area
-    assert overlap / (50 * 50) == pytest.approx(one["area_mm2"] / (20 * 20), rel=0.4)  # type: ignore[operator]
+    gain = cloth["process"]["trap"]["gains"][0]["area_mm2"]  # type: ignore[index]
+    assert overlap / (50 * 50) == pytest.approx(gain / (20 * 20), rel=0.4)
 
 
 def pair_of(file: dict[str, object]) -> dict[str, object]:

@@ -34,9 +34,9 @@ def grown(
         cell: of the tile.
     """
     met = np.zeros(len(areas), bool)
-    met[shapely.STRtree(areas).query(traps, predicate="intersects")[1]] = True
-    joined = polygonal(shapely.union_all(np.concatenate([areas[met], traps])))
-    joined = _mended(_rounded(joined), cell)
+    met[shapely.STRtree(areas).query(traps, predicate="dwithin", distance=MEND)[1]] = True
+    joined = _together(np.concatenate([areas[met], traps]))
+    joined = _apart(_mended(_apart(_rounded(joined)), cell))
     joined = joined[2 * shapely.area(joined) >= CRUMB * shapely.length(joined)]
     # A joined area stands where the first of those stood that are in it.
     number = np.flatnonzero(met)
@@ -50,6 +50,43 @@ def grown(
     # What goes on across the seam alone has the name of no area here.
     named = [*names, names[0] if len(names) else ""]
     return every, tuple(named[each] for each in np.concatenate([rest, first])[order].tolist())
+
+
+def _together(areas: Geometries) -> Geometries:
+    """Return areas as areas that do not overlap: those that meet one another by themselves, which is far less
+    work than all at once.
+    """
+    one, other = shapely.STRtree(areas).query(areas, predicate="intersects")
+    group = np.arange(len(areas))
+    while True:
+        low = group.copy()
+        np.minimum.at(low, one, group[other])
+        low = low[low]
+        if (low == group).all():
+            break
+        group = low
+    order = np.argsort(group, kind="stable")
+    starts = np.append(np.flatnonzero(np.diff(group[order], prepend=-1)), len(order))
+    sizes = np.diff(starts)
+    pairs = starts[:-1][sizes == 2]
+    found = [areas[order[starts[:-1][sizes == 1]]]]
+    found.append(np.asarray(shapely.union(areas[order[pairs]], areas[order[pairs + 1]]), dtype=object))
+    several = np.flatnonzero(sizes > 2).tolist()
+    made = [shapely.union_all(areas[order[starts[each] : starts[each + 1]]]) for each in several]
+    found.append(np.array([*made, None], dtype=object)[:-1])
+    return polygonal(np.concatenate(found))
+
+
+def _apart(areas: Geometries) -> Geometries:
+    """Return areas, those as one that came to overlap by the rounding."""
+    one, other = shapely.STRtree(areas).query(areas, predicate="intersects")
+    one, other = one[one < other], other[one < other]
+    meet = ~np.asarray(shapely.touches(areas[one], areas[other]), bool)
+    near = np.zeros(len(areas), bool)
+    near[one[meet]] = near[other[meet]] = True
+    if not near.any():
+        return areas
+    return np.concatenate([areas[~near], polygonal(shapely.union_all(areas[near], grid_size=1))])
 
 
 def _rounded(areas: Geometries) -> Geometries:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable
 from fractions import Fraction
 from random import Random
 
@@ -126,7 +126,7 @@ def moved(tile: Artwork, right: int, up: int) -> Artwork:
     return Artwork(tile.title, tile.cell, tuple(layers), tolerance=tile.tolerance)
 
 
-def layer(name: str, colour: str, areas: Sequence[shapely.Geometry]) -> Layer:
+def layer(name: str, colour: str, areas: Iterable[shapely.Geometry]) -> Layer:
     return Layer(Ink(name, colour), np.array([*areas, None], dtype=object)[:-1])
 
 
