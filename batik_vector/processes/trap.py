@@ -117,7 +117,7 @@ def _traps(
         lines = linked(lines, cell)
         bands = broadened(lines, width)
         which, shifts = repeats(bands, cell)
-        traps = spread(moved(lines[which], shifts), moved(bands[which], shifts), areas[other], cell)
+        traps = spread(moved(lines[which], shifts), moved(bands[which], shifts), areas[other], which, shifts)
         gains[one].append(traps.areas)
         under[other].append(traps)
         pairs.append(

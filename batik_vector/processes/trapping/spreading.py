@@ -71,24 +71,28 @@ def moved(geometries: Geometries, shifts: Steps) -> Geometries:
     return np.asarray(shapely.transform(geometries, lambda xy: xy + by), dtype=object)
 
 
-def spread(lines: Geometries, bands: Geometries, areas: Geometries, cell: Cell | None) -> Spread:
+def spread(lines: Geometries, bands: Geometries, areas: Geometries, which: Index, shifts: Steps) -> Spread:
     """Return what of areas lies within bands about the stretches at which a lighter ink meets them.
 
     Args:
-        lines: the stretches, one for each band; on a tile of repeats likewise.
+        lines: the stretches, one for each band.
         bands: what is within the trap's breadth of them.
         areas: valid polygons in steps, of the darker ink.
-        cell: of a tile, at whose edges traps go on with its repeats.
+        which: of which stretch each of them is a repeat.
+        shifts: by how much it is moved, shape (n, 2).
     """
     if not len(bands) or not len(areas):
         return Spread(np.empty(0, dtype=object), np.empty(0, np.intp))
-    near = _near(bands, areas)
-    todo, joined = _gathered(_around(near, bands, areas), bands, areas)
+    todo, joined = _gathered(_around(_near(bands, areas), bands, areas), bands, areas)
     pairs, cut = todo.pairs, np.empty(len(todo.pairs), dtype=object)
     cut[todo.holes] = shapely.difference(todo.bands[todo.holes], todo.around[todo.holes])
     cut[~todo.holes] = shapely.intersection(todo.around[~todo.holes], todo.bands[~todo.holes])
     parts, index = _polygons(cut)
-    kept = _touching(parts, index, lines, pairs, joined, cell)
+    near = _touching(parts, index, lines, pairs, joined)
+    band = pairs[index, 1]
+    if not near.all():
+        _go_on(moved(parts, -shifts[band]), which[band], near)
+    kept = np.flatnonzero(near)
     return Spread(parts[kept], pairs[index[kept], 0])
 
 
@@ -199,16 +203,15 @@ def _touching(
     lines: Geometries,
     pairs: Index,
     joined: dict[int, Index],
-    cell: Cell | None,
-) -> Index:
-    """Return which parts touch their stretch, or go on across the seam: others lie across a gap from it."""
+) -> NDArray[np.bool_]:
+    """Return which parts touch their stretch: others lie across a gap from it, or go on across the seam."""
     alone = np.bincount(index, minlength=len(pairs)) == 1
     # Where a part has a corner of a stretch, it lies along it: most do, and need no measuring.
     near = alone[index] & _share_corners(parts, lines)
     near[np.isin(index, list(joined))] = False
     asked = np.flatnonzero(~near)
     if not len(asked):
-        return np.flatnonzero(near)
+        return near
     plain = asked[~np.isin(index[asked], list(joined))]
     near[plain] = shapely.dwithin(parts[plain], lines[pairs[index[plain], 1]], APART)
     for number, those in joined.items():
@@ -216,11 +219,24 @@ def _touching(
         near[
             mine[shapely.STRtree(lines[those]).query(parts[mine], predicate="dwithin", distance=APART)[0]]
         ] = True
-    if cell is not None:
-        bounds = shapely.bounds(parts[asked]).reshape(-1, 4)
-        far = np.array([cell.columns, cell.rows])
-        near[asked] |= (bounds[:, :2] <= 0).any(axis=1) | (bounds[:, 2:] >= far).any(axis=1)
-    return np.flatnonzero(near)
+    return near
+
+
+def _go_on(parts: Geometries, which: Index, near: NDArray[np.bool_]) -> None:
+    """Take in the parts that touch one of the same stretch across the seam, and what touches those.
+
+    Args:
+        parts: where they lie about the stretch itself, and not about its repeats.
+        which: the stretch of each.
+        near: which are taken in already; changed here.
+    """
+    rest = np.flatnonzero(~near)
+    one, other = shapely.STRtree(parts).query(parts[rest], predicate="dwithin", distance=APART)
+    one = rest[one]
+    same = which[one] == which[other]
+    one, other = one[same], other[same]
+    while (more := ~near[one] & near[other]).any():
+        near[one[more]] = True
 
 
 def _share_corners(parts: Geometries, lines: Geometries) -> NDArray[np.bool_]:
