@@ -207,7 +207,7 @@ def _touching(
     """Return which parts touch their stretch: others lie across a gap from it, or go on across the seam."""
     alone = np.bincount(index, minlength=len(pairs)) == 1
     # Where a part has a corner of a stretch, it lies along it: most do, and need no measuring.
-    near = alone[index] & _share_corners(parts, lines)
+    near = np.asarray(alone[index] & _share_corners(parts, lines), bool)
     near[np.isin(index, list(joined))] = False
     asked = np.flatnonzero(~near)
     if not len(asked):
