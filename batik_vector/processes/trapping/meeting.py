@@ -19,8 +19,8 @@ from batik_vector.geometry.outlines import Index, Outlines, Steps
 from batik_vector.geometry.sampling import Geometries
 from batik_vector.values import frozen
 
-NEAR = 1.0
-"""Steps from an edge within which a corner of a neighbour lies on it: both were rounded to the grid."""
+NEAR = 1.5
+"""Steps from an edge within which a corner of a neighbour lies on it: both were rounded, by √½ at most."""
 
 
 @frozen(eq=False)
