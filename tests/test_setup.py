@@ -183,7 +183,7 @@ def test_what_further_bare_systems_are_tried_with_is_there() -> None:
     )
     # As bare.sh reads it, and puts them behind it.
     assert line.partition("#")[0].rstrip() == "make test"
-    dry = ["make", "-n", "test", "ONLY=" + " ".join(named)]
+    dry = ["make", "--no-print-directory", "-n", "test", "ONLY=" + " ".join(named)]
     asked = subprocess.run(dry, cwd=ROOT, capture_output=True, text=True)
     assert asked.stdout.rstrip().endswith(" ".join(named))
 

@@ -111,15 +111,15 @@ def planned(
     drawings = {each.path for job in jobs for _, each in drawings_of(job.recipe)}
     for job in jobs:
         files = []
-        for output in _outputs(job.recipe, formats):
-            asked, output = output, _called(output, called or {}, unused)
-            if fault := _unmet(job, output, _key_of(job, asked)):
+        for key, asked in _outputs(job.recipe, formats):
+            output = _called(asked, called or {}, unused)
+            if fault := _unmet(job, output, key):
                 faults.append(fault)
                 continue
             path = folder / _file_name(job, output)
             place = os.path.normcase(path)
             if place in taken:
-                faults.append(_twice(path, taken[place], job, asked))
+                faults.append(_twice(path, taken[place], job, key))
                 continue
             taken[place] = job
             _check_place(path, job, drawings)
@@ -154,11 +154,13 @@ def ready(jobs: Sequence[Job]) -> tuple[list[Job], list[MissingLibraryError]]:
     return [job for job in left if job.files], list(lacking.values())
 
 
-def _outputs(recipe: Recipe, formats: Sequence[str]) -> Iterator[OutputSpec]:
+def _outputs(recipe: Recipe, formats: Sequence[str]) -> Iterator[tuple[str, OutputSpec]]:
+    """Yield the outputs to make, each with the key of its table, or nothing where the call asks for it."""
+    own = [(f"output[{i}]", each) for i, each in enumerate(recipe.output)]
     if not formats:
-        yield from recipe.output or (OUTPUTS["svg"](),)
+        yield from own or [("", OUTPUTS["svg"]())]
     for name in dict.fromkeys(formats):
-        yield from [each for each in recipe.output if each.format == name] or [OUTPUTS[name]()]
+        yield from [(key, each) for key, each in own if each.format == name] or [("", OUTPUTS[name]())]
 
 
 def _unmet(job: Job, output: OutputSpec, where: str) -> Fault | None:
@@ -200,14 +202,14 @@ def _ending(recipe: Recipe, output: OutputSpec) -> str:
     return f"-tile{name}" if beside else name
 
 
-def _twice(path: Path, first: Job, job: Job, output: OutputSpec) -> Fault:
+def _twice(path: Path, first: Job, job: Job, key: str) -> Fault:
     if first is not job:
         words = (
             f'would be written to "{path}", as {first.source} would: rename one, or use another folder for it'
         )
         return Fault(words, source=job.source)
     words = f'would be written to "{path}", as an output before it would: give it a name of its own'
-    return located(RecipeError([Fault(words, _key_of(job, output))]), job.source, job.recipe.source).faults[0]
+    return located(RecipeError([Fault(words, key)]), job.source, job.recipe.source).faults[0]
 
 
 def _key_of(job: Job, output: OutputSpec) -> str:

@@ -98,7 +98,7 @@ def test_defaults_which_are_not_checked_lie_within_their_bounds(cls: type) -> No
     for field in dataclasses.fields(cls):
         # What is empty is left out.
         if field.default is not dataclasses.MISSING and field.default != "":
-            assert given(field.default, hint_of(cls, field.name), field.name) is field.default
+            assert given(field.default, hint_of(cls, field.name), field.name) == field.default
 
 
 OWN = """
