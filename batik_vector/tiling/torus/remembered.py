@@ -26,7 +26,7 @@ _known: dict[tuple[object, ...], tuple[work.Share, Arrays]] = {}
 
 
 def remembered(how: tuple[object, ...], shapes: Geometries, make: Callable[[], Arrays]) -> Arrays:
-    """Return what is made of shapes: arrays, which nobody may write into.
+    """Return what is made of shapes: arrays, each caller's own.
 
     Args:
         how: what is made of them, and all that it hangs on beside the shapes.
@@ -44,12 +44,15 @@ def remembered(how: tuple[object, ...], shapes: Geometries, make: Callable[[], A
     if key in _known:
         share, found = _known[key]
         work.spend_again(share)
-        return found
+        return _copies(found)
     found = make()
-    for each in found:
-        each.flags.writeable = False
     spent, vertices, crossings, pairs = np.subtract(work.counted() or before, before).tolist()
-    _known[key] = (spent, vertices, crossings, pairs), found
+    _known[key] = (spent, vertices, crossings, pairs), _copies(found)
     while len(_known) > KEPT:
         _known.pop(next(iter(_known)), None)
     return found
+
+
+def _copies(arrays: Arrays) -> Arrays:
+    """Return copies: shapely before 2.2 takes nothing apart that may not be written."""
+    return tuple(each.copy() for each in arrays)
