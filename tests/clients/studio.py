@@ -136,6 +136,7 @@ class Page:
     def choose(self, words: str, title: str) -> None:
         """Search the library, and open what is found."""
         self.page.get_by_label("Search the library").fill(words)
+        self.page.locator(f'.left .shelf[data-words="{words}"]').wait_for()
         self.page.locator(".left .pattern", has_text=title).first.click()
         self.page.locator(".bar .title", has_text=title).wait_for()
 
@@ -152,11 +153,13 @@ class Page:
         """Export in some formats; return the file that is handed over."""
         self.menu("File", "Export")
         dialog = self.page.locator(".dialog")
+        dialog.get_by_role("checkbox", name="Recipe (TOML)").wait_for()
         for box in dialog.get_by_role("checkbox").all():
-            wanted = box.get_attribute("aria-label") or box.inner_text()
-            ticked = box.get_attribute("aria-checked") == "true"
-            if ticked != (wanted.strip().lower() in formats):
+            name = (box.get_attribute("aria-label") or box.inner_text()).strip()
+            wanted = name.lower() in formats
+            if (box.get_attribute("aria-checked") == "true") != wanted:
                 box.click()
+            dialog.get_by_role("checkbox", name=name, exact=True, checked=wanted).wait_for()
         with self.page.expect_download() as found:
             dialog.get_by_role("button", name="Download").click()
         return Path(str(found.value.path()))

@@ -93,6 +93,8 @@ class LibraryPanel:
                     telling(lambda hit=hit: self.session.open_pattern(hit.name)),
                     hit.version,
                 )
+        # What is shown answers these words: whoever drives the page waits for it.
+        self.shelf.props(f'data-words="{_attribute(words)}"')
         if len(found) > SHOWN_AT_ONCE:
             say(self.said, f"{SHOWN_AT_ONCE} of {len(found)} patterns")
 
