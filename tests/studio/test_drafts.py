@@ -123,7 +123,7 @@ KNOWN = {name: list(controls(Draft(text)).values()) for name, text in TEXTS.item
 
 
 @long
-@settings(max_examples=examples(20, 200), deadline=None, derandomize=True)
+@settings(max_examples=examples(20, 60), deadline=None, derandomize=True)
 @given(st.sampled_from(sorted(KNOWN)), st.data())
 def test_a_slider_anywhere_changes_what_it_says_and_no_comment(name: str, data: st.DataObject) -> None:
     moving = [each for each in KNOWN[name] if each.kind in ("number", "whole") and each.span]

@@ -44,7 +44,7 @@ def around(areas: Geometries, right: int = W, up: int = H) -> Geometries:
 
 
 @long
-@settings(max_examples=examples(10, 400), deadline=None, derandomize=True)
+@settings(max_examples=examples(10, 120), deadline=None, derandomize=True)
 @given(st.integers(0, 10**6))
 def test_faces_fill_the_box_and_layers_are_as_they_were(seed: int) -> None:
     chance = Random(seed)
@@ -69,7 +69,7 @@ def test_faces_fill_the_box_and_layers_are_as_they_were(seed: int) -> None:
 
 
 @long
-@settings(max_examples=examples(8, 200), deadline=None, derandomize=True)
+@settings(max_examples=examples(8, 60), deadline=None, derandomize=True)
 @given(st.integers(0, 10**6))
 def test_both_sides_of_a_seam_are_alike(seed: int) -> None:
     chance = Random(seed)

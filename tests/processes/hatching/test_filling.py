@@ -36,7 +36,7 @@ RING = shapely.Point(0, 0).buffer(15, quad_segs=64) - shapely.Point(2, 1).buffer
 
 
 @long
-@settings(max_examples=examples(80, 600), deadline=None)
+@settings(max_examples=examples(80, 300), deadline=None)
 @given(areas(), KINDS, PENS)
 def test_no_ink_leaves_its_area(shapes: NDArray[np.object_], spec: Hatch, pen: float) -> None:
     assume(len(shapes))
@@ -49,7 +49,7 @@ def test_no_ink_leaves_its_area(shapes: NDArray[np.object_], spec: Hatch, pen: f
 
 
 @long
-@settings(max_examples=examples(60, 500), deadline=None)
+@settings(max_examples=examples(60, 250), deadline=None)
 @given(
     areas(most=2),
     st.sampled_from([ParallelHatch(), ParallelHatch(angle=10, join=False), CrossHatch(between=60)]),
@@ -62,7 +62,7 @@ def test_parallel_strokes_and_the_edge_leave_nothing_white(
 
 
 @long
-@settings(max_examples=examples(60, 500), deadline=None)
+@settings(max_examples=examples(60, 250), deadline=None)
 @given(areas(most=2), st.sampled_from([ConcentricHatch(), SpiralHatch(), SpiralHatch(edge=False)]), PENS)
 def test_rings_leave_hardly_anything_white(shapes: NDArray[np.object_], spec: Hatch, pen: float) -> None:
     assert unpainted(shapes, hatched(of_polygons(shapes), spec, pen), pen) <= 0.02

@@ -39,7 +39,7 @@ def rounded(shapes: NDArray[np.object_], distance: float) -> NDArray[np.object_]
 
 
 @long
-@settings(max_examples=examples(40, 1500), deadline=None, derandomize=True)
+@settings(max_examples=examples(40, 500), deadline=None, derandomize=True)
 @given(areas(), st.floats(50, 2000))
 def test_what_is_drawn_in_is_what_lies_within(shapes: NDArray[np.object_], distance: float) -> None:
     assume(len(shapes))
@@ -59,7 +59,7 @@ def test_what_is_drawn_in_is_what_lies_within(shapes: NDArray[np.object_], dista
 
 
 @long
-@settings(max_examples=examples(30, 500), deadline=None, derandomize=True)
+@settings(max_examples=examples(30, 150), deadline=None, derandomize=True)
 @given(areas(most=1), st.floats(100, 900), st.floats(100, 900))
 def test_two_ways_in_are_one(shapes: NDArray[np.object_], one: float, other: float) -> None:
     assume(len(shapes))

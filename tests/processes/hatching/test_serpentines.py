@@ -41,7 +41,7 @@ def needed(shape: shapely.Polygon, direction: Direction, spacing: float) -> tupl
 
 
 @long
-@settings(max_examples=examples(60, 800), deadline=None)
+@settings(max_examples=examples(60, 400), deadline=None)
 @given(areas(), ANGLES, SPACINGS)
 def test_strokes_are_what_lines_and_areas_have_in_common(
     shapes: NDArray[np.object_], angle: float, spacing: float
@@ -62,7 +62,7 @@ def test_strokes_are_what_lines_and_areas_have_in_common(
 
 
 @long
-@settings(max_examples=examples(60, 800), deadline=None)
+@settings(max_examples=examples(60, 400), deadline=None)
 @given(areas(), ANGLES, SPACINGS)
 def test_joined_strokes_are_fewer_and_stay_inside(
     shapes: NDArray[np.object_], angle: float, spacing: float

@@ -59,7 +59,7 @@ def tried(tile: Artwork, **told: object) -> Artwork | None:
 
 
 @long
-@settings(max_examples=examples(3, 300), deadline=None, derandomize=True)
+@settings(max_examples=examples(3, 100), deadline=None, derandomize=True)
 @given(seed=st.integers(0, 100_000))
 def test_sheets_are_one_piece_and_no_bridge_is_needless(seed: int) -> None:
     tile = random_tile(seed)
@@ -143,7 +143,7 @@ def shortest_tree(points: list[tuple[float, float]], radius: float, side: float)
     return total
 
 
-@settings(max_examples=examples(2, 30), deadline=None, derandomize=True)
+@settings(max_examples=examples(2, 15), deadline=None, derandomize=True)
 @given(seed=st.integers(0, 100_000))
 def test_bridges_are_about_as_short_as_can_be(seed: int) -> None:
     chance = np.random.default_rng(seed)

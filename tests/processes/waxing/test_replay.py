@@ -38,7 +38,7 @@ def shown(page: Artwork) -> Cloth:
 
 
 @long
-@settings(max_examples=examples(5, 150), deadline=None, derandomize=True)
+@settings(max_examples=examples(5, 75), deadline=None, derandomize=True)
 @given(st.integers(0, 10_000))
 @example(5924)  # wax that touches itself along a line
 def test_wax_replayed_gives_the_design_back(number: int) -> None:
@@ -48,7 +48,7 @@ def test_wax_replayed_gives_the_design_back(number: int) -> None:
 
 
 @long
-@settings(max_examples=examples(3, 150), deadline=None, derandomize=True)
+@settings(max_examples=examples(3, 75), deadline=None, derandomize=True)
 @given(st.integers(0, 10_000))
 def test_wax_of_curves_replayed_gives_the_design_back(number: int) -> None:
     page = drawn(number)
@@ -60,7 +60,7 @@ def test_wax_of_curves_replayed_gives_the_design_back(number: int) -> None:
 
 
 @long
-@settings(max_examples=examples(3, 50), deadline=None, derandomize=True)
+@settings(max_examples=examples(3, 15), deadline=None, derandomize=True)
 @given(st.integers(0, 10_000), st.booleans())
 def test_plates_are_in_the_normal_form_and_their_seams_exact(number: int, mirror: bool) -> None:
     page = drawn(number)

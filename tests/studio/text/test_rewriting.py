@@ -95,7 +95,7 @@ def test_the_comments_of_a_text_are_found() -> None:
 
 
 @long
-@settings(max_examples=examples(20, 200), deadline=None, derandomize=True)
+@settings(max_examples=examples(20, 60), deadline=None, derandomize=True)
 @given(st.sampled_from(sorted(TEXTS)), st.data())
 def test_a_value_is_set_and_all_else_stays_as_it_was_written(name: str, data: st.DataObject) -> None:
     text = TEXTS[name]
@@ -113,7 +113,7 @@ def test_a_value_is_set_and_all_else_stays_as_it_was_written(name: str, data: st
 
 
 @long
-@settings(max_examples=examples(20, 200), deadline=None, derandomize=True)
+@settings(max_examples=examples(20, 60), deadline=None, derandomize=True)
 @given(st.sampled_from(sorted(TEXTS)), st.data())
 def test_a_key_that_is_put_in_can_be_taken_out_again(name: str, data: st.DataObject) -> None:
     text = TEXTS[name]
@@ -139,7 +139,7 @@ def at(node: Any, path: Way) -> Any:
 
 
 @long
-@settings(max_examples=examples(20, 200), deadline=None, derandomize=True)
+@settings(max_examples=examples(20, 60), deadline=None, derandomize=True)
 @given(st.sampled_from(sorted(TEXTS)), st.data())
 def test_members_are_moved_there_and_back(name: str, data: st.DataObject) -> None:
     text = TEXTS[name]
@@ -164,7 +164,7 @@ def test_members_are_moved_there_and_back(name: str, data: st.DataObject) -> Non
 
 
 @long
-@settings(max_examples=examples(20, 200), deadline=None, derandomize=True)
+@settings(max_examples=examples(20, 60), deadline=None, derandomize=True)
 @given(st.sampled_from(sorted(TEXTS)), st.data())
 def test_a_member_taken_out_is_put_in_again_as_it_was_written(name: str, data: st.DataObject) -> None:
     text = TEXTS[name]

@@ -92,7 +92,7 @@ def test_a_ring_that_is_a_needle_stays(needle: list[tuple[int, int]]) -> None:
 
 
 @long
-@settings(max_examples=examples(50, 2_000), derandomize=True, deadline=None)
+@settings(max_examples=examples(50, 500), derandomize=True, deadline=None)
 @given(st.integers(0, 2**32 - 1))
 def test_two_marks_that_cross_leave_nothing_but_needles_out(seed: int) -> None:
     chance = np.random.default_rng(seed)
