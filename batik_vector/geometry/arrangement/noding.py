@@ -142,16 +142,28 @@ def _splits(edges: Edges, box: Box, near: float) -> tuple[Index, Steps]:
     lines = np.asarray(shapely.linestrings(edges.ends.reshape(-1, 2, 2).astype(float)), dtype=object)
     tree = shapely.STRtree(lines)
     on, points = _corners(edges, tree, box, near)
+    inner = _inner(edges, on, points)
+    on, points = on[inner], points[inner]
     one, other = tree.query(lines, predicate="crosses")
-    one, other = one[one < other], other[one < other]
+    # What is to be drawn to a corner first may cross no more; cut at both at once, edges that leave one line
+    # side by side cross ever anew, a step further on.
+    bent = np.zeros(len(edges), bool)
+    bent[on] = True
+    new = (one < other) & ~bent[one] & ~bent[other]
+    one, other = one[new], other[new]
     crossing = _crossing(edges.ends[one], edges.ends[other])
     one, other = one[crossing], other[crossing]
     if len(one):
         places = _crossings(edges.ends[one], edges.ends[other], box)
         on, points = np.concatenate([on, one, other]), np.concatenate([points, places, places])
-    ends = edges.ends[on]
-    inner = ((points != ends[:, :2]).any(axis=1)) & ((points != ends[:, 2:]).any(axis=1))
+    inner = _inner(edges, on, points)
     return on[inner], points[inner]
+
+
+def _inner(edges: Edges, on: Index, points: Steps) -> NDArray[np.bool_]:
+    """Tell which points are no end of the edge that they are on."""
+    ends = edges.ends[on]
+    return np.asarray((points != ends[:, :2]).any(axis=1) & (points != ends[:, 2:]).any(axis=1))
 
 
 def _corners(edges: Edges, tree: shapely.STRtree, box: Box, near: float) -> tuple[Index, Steps]:
