@@ -11,9 +11,11 @@ import shapely
 
 from batik_vector.artwork import Cell
 from batik_vector.artwork.page import Border
-from batik_vector.geometry.outlines import Index, Steps
+from batik_vector.geometry.outlines import Index, Steps, of_polygons, to_polygons
 from batik_vector.geometry.regions import oriented, polygonal
 from batik_vector.geometry.sampling import Geometries
+from batik_vector.processes.trapping.meeting import with_corners
+from batik_vector.units import STEPS_PER_MM
 
 MEND = 2.0
 """Steps by which what meets across an edge of the tile may miss, since its two sides were rounded apart."""
@@ -46,10 +48,25 @@ def grown(
     np.minimum.at(first, into, number[at])
     rest = np.flatnonzero(~met)
     order = np.lexsort([np.arange(len(rest) + len(joined)), np.concatenate([rest, first])])
-    every = np.concatenate([drawn[rest], oriented(joined)])[order]
+    every = _cornered(np.concatenate([drawn[rest], oriented(joined)]))[order]
     # What goes on across the seam alone has the name of no area here.
     named = [*names, names[0] if len(names) else ""]
     return every, tuple(named[each] for each in np.concatenate([rest, first])[order].tolist())
+
+
+def _cornered(areas: Geometries) -> Geometries:
+    """Return areas with corners where one lies on another's edge, if in mm they would overlap there by a bit."""
+    apart = np.asarray(shapely.transform(areas, lambda xy: xy / STEPS_PER_MM), dtype=object)
+    one, other = shapely.STRtree(apart).query(apart, predicate="intersects")
+    one, other = one[one < other], other[one < other]
+    off = ~np.asarray(shapely.touches(apart[one], apart[other]), bool)
+    some = np.unique(np.concatenate([one[off], other[off]]))
+    if not len(some):
+        return areas
+    (found,) = with_corners([of_polygons(areas[some])])
+    areas = areas.copy()
+    areas[some] = to_polygons(found)
+    return areas
 
 
 def _together(areas: Geometries) -> Geometries:

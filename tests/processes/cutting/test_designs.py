@@ -49,7 +49,8 @@ def within_reach(page: Artwork, key: str, value: float, **told: object) -> tuple
     offered = re.match(rf"{key} = [\d.]+ mm, expected at most ([\d.e-]+) mm", words)
     assert offered, words
     value = float(offered[1])
-    return cut(page, **{key: value}, **told), value
+    # What belongs to the value does nothing without it, and is refused.
+    return cut(page, **{key: value}, **(told if value else {})), value
 
 
 def strokes_of(prepared: Prepared) -> list[Outlines]:
