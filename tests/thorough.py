@@ -3,7 +3,8 @@
     @long
     @settings(max_examples=examples(100, 1000))
 
-A test marked so runs in both; ``make test-long`` runs nothing else. ``BATIK_LONG=3`` tries three times as many.
+A test marked so runs in both; ``make test-long`` runs nothing else. ``BATIK_LONG=3`` tries three times as
+many.
 """
 
 from __future__ import annotations

@@ -55,7 +55,7 @@ def grown(
 
 
 def _cornered(areas: Geometries) -> Geometries:
-    """Return areas with corners where one lies on another's edge, if in mm they would overlap there by a bit."""
+    """Return areas with corners where one lies on another's edge, if they overlap by a bit there in mm."""
     apart = np.asarray(shapely.transform(areas, lambda xy: xy / STEPS_PER_MM), dtype=object)
     one, other = shapely.STRtree(apart).query(apart, predicate="intersects")
     one, other = one[one < other], other[one < other]
