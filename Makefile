@@ -42,9 +42,9 @@ test-pythons: ## lint and test on PYTHON and on the newest that this machine has
 test-lowest: ## test with the oldest versions of all that pyproject.toml asks for
 	@$(MAKE) --no-print-directory VENV=.venv-lowest LOWEST=1 test
 
-test-bare: $(TOOLS_READY) ## README's two commands on bare systems: SUITE="bookworm trixie" (the default; all tests on the first), or sid
+test-bare: $(TOOLS_READY) ## README's two commands on bare systems: SUITE="trixie bookworm" (the default; all tests on the first), or sid
 	@tools/setup.sh bare
-	@tools/bare.sh $(or $(SUITE),bookworm trixie)
+	@tools/bare.sh $(or $(SUITE),trixie bookworm)
 
 lint: $(TOOLS_READY) ## check style and types
 	$(BIN)/ruff check .

@@ -239,6 +239,8 @@ async def main():
         await pictures.warm()
         print("begun", flush=True)
         await pictures.ask(Draft.read(sys.argv[1]).with_value("tolerance", 0.002), View(tolerance=0.0))
+        # The process that draws hears Ctrl-C too, and its end may be told first.
+        await asyncio.sleep(60)
 
 if __name__ == "__main__":
     asyncio.run(main())
