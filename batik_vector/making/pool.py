@@ -121,7 +121,7 @@ class _Pool:
 
     def _started(self) -> tuple[Any, Connection]:
         mine, theirs = self._context.Pipe()
-        with _deaf():
+        with deaf():
             process = self._context.Process(target=_serve, args=(theirs, self._work), daemon=True)
             process.start()
         theirs.close()
@@ -147,7 +147,7 @@ class _Pool:
 
 
 @contextlib.contextmanager
-def _deaf() -> Iterator[None]:
+def deaf() -> Iterator[None]:
     """Let what is started inside not hear Ctrl-C, which goes to all processes of a terminal."""
     if not hasattr(signal, "pthread_sigmask"):
         yield

@@ -15,15 +15,15 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import multiprocessing
-import signal
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import field
 from multiprocessing.connection import Connection
 from typing import Any
 
 from batik_vector.errors import Fault
+from batik_vector.making.pool import deaf
 from batik_vector.studio.asking import View, Wishes
 from batik_vector.studio.drafts import Draft
 from batik_vector.studio.worker import Answer, answer_of, request_of, serve
@@ -276,7 +276,7 @@ class _Hand:
 
     def _made(self) -> _Made:
         mine, theirs = self._context.Pipe()
-        with _deaf():
+        with deaf():
             process = self._context.Process(target=serve, args=(theirs,), daemon=True)
             process.start()
         theirs.close()
@@ -315,19 +315,6 @@ class _Made:
 
     process: Any
     pipe: Connection
-
-
-@contextlib.contextmanager
-def _deaf() -> Iterator[None]:
-    """Let what is started inside not hear Ctrl-C, which goes to all processes of a terminal."""
-    if not hasattr(signal, "pthread_sigmask"):
-        yield
-        return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _faults(answer: Answer) -> tuple[Fault, ...]:
