@@ -209,7 +209,7 @@ class Pictures:
         number = hand.number
         words = f"took longer than {limit:g} s and was stopped"
         alarm = loop.call_later(limit, lambda: hand.stop(words, number))
-        work = loop.run_in_executor(self._threads, hand.exchange, request, say)
+        work = loop.run_in_executor(self._threads, hand.exchange, number, request, say)
         try:
             return await asyncio.shield(work)
         except asyncio.CancelledError:
@@ -246,21 +246,29 @@ class _Hand:
         self._wants_spare = spare
         self._now: _Made | None = None
         self._spare: _Made | None = None
-        self._reason = ""
+        self._stopped = (-1, "")
         self._ended = False
         self.number = 0
         """Changes with every piece of work, so that none is stopped on behalf of another."""
 
-    def exchange(self, request: bytes, tell: Callable[[str], None]) -> Answer:
-        """Have a picture made. Runs in a thread."""
-        self._reason = ""
+    def exchange(self, number: int, request: bytes, tell: Callable[[str], None]) -> Answer:
+        """Have a picture made. Runs in a thread.
+
+        Args:
+            number: of this piece of work.
+            request: what is sent.
+            tell: called with the stage of work that takes long.
+        """
         try:
             pipe = self._open()
+            # Stopped before it was begun: the process that was ended for it may have been replaced meanwhile.
+            if self._stopped[0] == number:
+                return Answer(faults=(Fault(self._stopped[1]),))
             pipe.send_bytes(request)
             while (answer := answer_of(pipe)).stage:
                 tell(answer.stage)
         except (EOFError, OSError):
-            return Answer(faults=(Fault(self._gone()),))
+            return Answer(faults=(Fault(self._gone(number)),))
         if self._wants_spare and self._spare is None and not self._ended:
             self._spare = self._made()
         return answer
@@ -282,28 +290,30 @@ class _Hand:
         theirs.close()
         return _Made(process, mine)
 
-    def _gone(self) -> str:
+    def _gone(self, number: int) -> str:
         """Return in words why there is no answer, and be ready to begin anew."""
         gone, self._now = self._now, None
         if gone is not None:
             gone.pipe.close()
             gone.process.join()
-        if self._reason:
-            return self._reason
+        if self._ended:
+            return "the studio was closed"
+        if self._stopped[0] == number:
+            return self._stopped[1]
         code = gone.process.exitcode if gone is not None else None
         return f"the process that drew it ended ({code}), perhaps for want of memory; the draft is kept"
 
     def stop(self, reason: str, number: int | None = None) -> None:
-        """End the process, unless it is at other work by now."""
-        if self._now is None or (number is not None and number != self.number):
+        """End the process, unless it is at other work by now; what has yet to begin will not."""
+        if number is not None and number != self.number:
             return
-        self._reason = reason
-        self._now.process.kill()
+        self._stopped = self.number, reason
+        if self._now is not None:
+            self._now.process.kill()
 
     def end(self) -> None:
         """End the processes for good."""
         self._ended = True
-        self._reason = "the studio was closed"
         for made in (self._now, self._spare):
             if made is not None:
                 made.process.kill()

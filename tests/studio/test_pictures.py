@@ -167,6 +167,20 @@ def test_what_takes_long_is_cancelled_and_the_next_is_drawn(
     assert has(loop.run_until_complete(pictures.ask(FIRST))).svg
 
 
+def test_what_is_stopped_before_it_is_begun_is_not_begun(
+    loop: asyncio.AbstractEventLoop, pictures: Pictures
+) -> None:
+    async def cancelled() -> Picture:
+        for _ in range(4):
+            pictures._threads.submit(time.sleep, 0.5)
+        asyncio.get_running_loop().call_later(0.1, pictures.cancel)
+        return has(await pictures.ask(SLOW, View(tolerance=0.0)))
+
+    loop.run_until_complete(pictures.warm())
+    assert loop.run_until_complete(cancelled()).faults[0].message == "cancelled"
+    assert has(loop.run_until_complete(pictures.ask(FIRST))).svg
+
+
 def test_what_takes_too_long_is_stopped(loop: asyncio.AbstractEventLoop, pictures: Pictures) -> None:
     picture = has(loop.run_until_complete(pictures.ask(SLOW, View(tolerance=0.0), limit=0.1)))
     assert "took longer than 0.1 s" in picture.faults[0].message
