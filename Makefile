@@ -80,7 +80,7 @@ $(TOOLS_READY): $(READY)
 	@tools/setup.sh tools
 	@touch $@
 
-$(CLIENTS_READY): benchmarks/requirements.txt tools/setup.sh | $(TOOLS_READY)
+$(CLIENTS_READY): benchmarks/requirements.txt tools/setup.sh pyproject.toml | $(TOOLS_READY)
 	@tools/setup.sh clients
 	@touch $@
 

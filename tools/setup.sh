@@ -5,7 +5,7 @@
 #   tools/setup.sh tools      into the same, what tests and checks it
 #   tools/setup.sh studio     into the same, what the studio needs
 #   tools/setup.sh peers      .venv-bench with what the benchmarks measure us against
-#   tools/setup.sh clients    the real programs that tests/clients opens files in, vpype and readers of HPGL in .venv-vpype
+#   tools/setup.sh clients    the real programs that tests/clients opens files in; in .venv-vpype vpype with our plug-in, vsketch, readers of HPGL
 #   tools/setup.sh bare       what makes a bare system
 #
 # PYTHON is the interpreter, VENV the folder of the environment; with LOWEST=1 it gets the oldest versions that
@@ -193,7 +193,10 @@ clients_ready() {
     # vpype asks for other versions of what we ask for, and gets the ones that the benchmarks pin.
     python_known
     environment "$plotting"
-    step "installing vpype into $plotting (pip)" pip_install "$plotting" --constraint benchmarks/requirements.txt vpype
+    step "installing vpype into $plotting (pip)" pip_install "$plotting" --constraint benchmarks/requirements.txt \
+        vpype matplotlib --editable .
+    # Without its viewer, which draws on a screen.
+    step "installing vsketch into $plotting (pip)" pip_install "$plotting" --no-deps vsketch==1.2.0
     step "installing readers of HPGL into $plotting (pip)" pip_install "$plotting" ezhpgl==0.1.0a2 hpgl-buddy==1.8.0
     rm -f "$plotting/.unfinished"
     # What drives the browser on the studio's page.

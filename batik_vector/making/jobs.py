@@ -32,6 +32,7 @@ from batik_vector.making.pages import (
     divided,
     done_to_tile,
     drawings_of,
+    finished,
     piece_of,
     render_output,
     renumbered,
@@ -287,12 +288,7 @@ def run(job: Job, tell: Callable[[str], None], look: Callable[[Page], None] | No
         look(shown)
     reports: list[dict[str, Any]] = []
     writers, latest = [], Latest()
-
-    def filled(tile: Artwork) -> Page:
-        if recipe.border:
-            raise RecipeError([Fault("is done to the tile, and borders would stay as they are", "process")])
-        return compile_cloth(recipe, tile=tile, progress=tell)
-
+    filled = _filling(recipe, tell)
     notes = [] if tile is None else warnings(recipe, tile)
     for path, output in job.files:
         page: Page | None = cloth if piece_of(recipe, output) == Piece.YARDAGE else tile
@@ -318,6 +314,36 @@ def run(job: Job, tell: Callable[[str], None], look: Callable[[Page], None] | No
         "seconds": round(time.perf_counter() - start, 3),
         "warnings": notes,
     }
+
+
+def shown(job: Job, output: OutputSpec, tell: Callable[[str], None]) -> Page:
+    """Return what a file of a job would hold, as its processes leave it, without writing it.
+
+    Raises:
+        RecipeError: with the file and the lines.
+        SeamError: where no clean seam is found.
+    """
+    if fault := _unmet(job, output, ""):
+        raise RecipeError([fault])
+    recipe = job.recipe
+    tile = made(job, tell) if recipe.tile is not None else None
+    with _on_behalf(job, _key_of(job, output)):
+        of_cloth = piece_of(recipe, output) == Piece.YARDAGE
+        page: Page | None = compile_cloth(recipe, tile=tile, progress=tell) if of_cloth else tile
+        assert page is not None
+        page, output, _ = done_to_tile(tile, page, output, latest := Latest(), _filling(recipe, tell))
+        return finished(page, output, latest)[0]
+
+
+def _filling(recipe: Recipe, tell: Callable[[str], None]) -> Callable[[Artwork], Page]:
+    """Return what fills a recipe's cloth with its tile as processes have left this."""
+
+    def filled(tile: Artwork) -> Page:
+        if recipe.border:
+            raise RecipeError([Fault("is done to the tile, and borders would stay as they are", "process")])
+        return compile_cloth(recipe, tile=tile, progress=tell)
+
+    return filled
 
 
 def _check_apart(job: Job, files: Sequence[tuple[Path, Any]]) -> None:

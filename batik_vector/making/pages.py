@@ -154,7 +154,7 @@ def divided(page: Page, output: OutputSpec, latest: Latest) -> list[Part]:
     kind = FORMATS[output.format]
     if not kind.divides(output.options):
         return [Part(page, output)]
-    page, facts = _finished(page, output, latest)
+    page, facts = finished(page, output, latest)
     done, told = replace(output, process=()), facts if output.process else None
     parts = kind.parts(page, output.options)
     if not parts:
@@ -170,12 +170,12 @@ def render_output(page: Page, output: OutputSpec, sink: BinaryIO, latest: Latest
     Returns:
         What the processes that it went through have to report.
     """
-    page, facts = _finished(page, output, latest)
+    page, facts = finished(page, output, latest)
     write_page(page, sink, output.format, output.options, check=False)
     return facts
 
 
-def _finished(page: Page, output: OutputSpec, latest: Latest) -> tuple[Page, Mapping[str, Any]]:
+def finished(page: Page, output: OutputSpec, latest: Latest) -> tuple[Page, Mapping[str, Any]]:
     """Return a page as an output shows it and its processes leave it, and what these have to report."""
     if isinstance(page, Artwork):
         page = _set_out(page, getattr(output, "repeat", (1, 1)), getattr(output, "bleed", 0.0))

@@ -159,12 +159,13 @@ def page_mm(pdf: Path, box: str = "MediaBox") -> tuple[float, float, float, floa
 
 
 ROOT = Path(__file__).parents[2]
+VPYPE, VPYPE_PYTHON = (str(ROOT / ".venv-vpype" / "bin" / name) for name in ("vpype", "python"))
 
 
 def vpype(svg: Path) -> Path:
     """Return the SVG that vpype writes of what it has read: a layer for each of its pens."""
     out = svg.with_name("vpype.svg")
-    run(str(ROOT / ".venv-vpype" / "bin" / "vpype"), "read", svg, "write", out, home=svg.parent)
+    run(VPYPE, "read", svg, "write", out, home=svg.parent)
     return out
 
 
@@ -196,7 +197,7 @@ def ezhpgl(hpgl: Path) -> Plotted:
     """Return what ezhpgl has read, which knows one unit alone."""
     out = hpgl.with_suffix(".json")
     code = "import sys, ezhpgl; ezhpgl.readfile(sys.argv[1]).write_json(sys.argv[2])"
-    run(str(ROOT / ".venv-vpype" / "bin" / "python"), "-c", code, hpgl, out, home=hpgl.parent)
+    run(VPYPE_PYTHON, "-c", code, hpgl, out, home=hpgl.parent)
     found = json.loads(out.read_text())
     assert found["completeness"] == "complete"
     assert found["diagnostics"] == []
