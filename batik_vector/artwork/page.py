@@ -54,17 +54,30 @@ class DropAxis(enum.StrEnum):
     """Each row stands p/q of the width right of the one below (brick)."""
 
 
+_Percent: TypeAlias = Annotated[float, Between(0, 100)]
+_Opponent: TypeAlias = Annotated[float, Between(-128, 127)]
+
+Cmyk: TypeAlias = tuple[_Percent, _Percent, _Percent, _Percent]
+"""Cyan, magenta, yellow and black in per cent."""
+
+Lab: TypeAlias = tuple[_Percent, _Opponent, _Opponent]
+"""L*, a* and b* of CIE 1976 under D50."""
+
+
 @frozen
 class Ink:
     """One bath, screen, pen or tool: one layer of the file.
 
-    ``width`` is the breadth in mm of a line drawn with it (the canting's spout).
+    ``width`` is the breadth in mm of a line drawn with it (the canting's spout). ``cmyk`` and ``lab`` are its
+    colour in print, where it was measured or agreed on; ``colour`` is that on screen.
     """
 
     name: str
     colour: str
     width: float = 1.0
     overlap: Overlap = Overlap.WELD
+    cmyk: Cmyk | None = None
+    lab: Lab | None = None
 
     def __post_init__(self) -> None:
         check(self)

@@ -102,7 +102,7 @@ def compile_borders(borders: Sequence[BorderSpec], recipe: Recipe, window: Box) 
     Raises:
         RecipeError: naming the key at fault, where a border does not fit or cannot be drawn.
     """
-    inks = {name: Ink(name, spec.colour, spec.width, spec.overlap) for name, spec in recipe.ink.items()}
+    inks = {name: spec.named(name) for name, spec in recipe.ink.items()}
     room = _Room(Window(*(to_steps(value) for value in window)))
     maker = _Maker(recipe, inks)
     fits: list[SideFit] = []

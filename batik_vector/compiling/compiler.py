@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import shapely
 
 from batik_vector._version import __version__
-from batik_vector.artwork import Artwork, Cell, DropAxis, Ink, Provenance, violations
+from batik_vector.artwork import Artwork, Cell, DropAxis, Provenance, violations
 from batik_vector.compiling.placements import Placed, place
 from batik_vector.errors import Fault, RecipeError, TooLargeError, blame
 from batik_vector.fields import Instead, given
@@ -52,7 +52,7 @@ def compile_recipe(recipe: Recipe, *, progress: Progress | None = None) -> Artwo
 
 
 def _compiled(recipe: Recipe, tell: Progress) -> Artwork:
-    inks = {name: Ink(name, spec.colour, spec.width, spec.overlap) for name, spec in recipe.ink.items()}
+    inks = {name: spec.named(name) for name, spec in recipe.ink.items()}
     unit = recipe.tiling.unit()
     sheets = []
     spent = 0

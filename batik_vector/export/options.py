@@ -39,6 +39,28 @@ class PdfInks(enum.StrEnum):
     """Each ink is a separation with its own name, shown in its screen colour."""
 
 
+class Alternate(enum.StrEnum):
+    """In which colour space a separation of a PDF is shown where its ink is not at hand."""
+
+    RGB = "rgb"
+    """The colour on screen."""
+    CMYK = "cmyk"
+    """Process inks: as the ink says, or else reckoned from its colour on screen."""
+    LAB = "lab"
+    """CIE L*a*b* under D50: as the ink says, or else its colour on screen."""
+
+
+class Overprint(enum.StrEnum):
+    """Which inks of a PDF leave those beneath them on their plates."""
+
+    MEANT = "meant"
+    """Those that lie over others on purpose: with overlap = "overlay", and all after traps."""
+    ALL = "all"
+    """All of them."""
+    NONE = "none"
+    """None: what lies on top is cut out of all plates beneath."""
+
+
 class DxfVersion(enum.StrEnum):
     """Which DXF is written."""
 
@@ -117,9 +139,19 @@ class PdfOptions:
     inks: Annotated[PdfInks, Says("inks as screen colours (rgb) or as named separations (spot)")] = (
         PdfInks.RGB
     )
+    alternate: Annotated[
+        Alternate | None,
+        Says("how separations are shown without their inks: rgb, cmyk or lab; as each ink tells if unset"),
+    ] = None
+    overprint: Annotated[
+        Overprint,
+        Says("which separations leave those beneath whole: overlays and traps (meant), all, or none"),
+    ] = Overprint.MEANT
 
     def __post_init__(self) -> None:
         check(self)
+        if self.inks is not PdfInks.SPOT:
+            belongs(self, ("alternate", "overprint"), 'inks = "spot"')
 
     @property
     def shows_cloth(self) -> bool:

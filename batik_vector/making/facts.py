@@ -10,7 +10,7 @@ import shapely
 from batik_vector.artwork import Artwork, Layer, Page
 from batik_vector.making.pages import drawings_of, page_size, piece_of
 from batik_vector.recipe.model import OutputSpec, Recipe
-from batik_vector.recipe.outputs import Piece, PngOutput
+from batik_vector.recipe.outputs import PdfOutput, Piece, PngOutput
 from batik_vector.tiling.symmetry.machine_fit import pixel_advice
 
 if TYPE_CHECKING:
@@ -71,13 +71,21 @@ def warnings(recipe: Recipe, artwork: Artwork) -> list[str]:
 
 def page_warnings(path: Path, output: OutputSpec, page: Page) -> list[str]:
     """Return what readers of a file may take wrongly."""
-    if output.format != "pdf":
+    if not isinstance(output, PdfOutput):
         return []
-    from batik_vector.export.pdf import units_per_user_unit
+    from batik_vector.export.pdf.document import units_per_user_unit
+    from batik_vector.export.pdf.separations import reckoned
 
+    found = []
     if (unit := units_per_user_unit(page)) > 1:
-        return [
+        found.append(
             f"{path.name}: over 5.08 m long, and so in units of {unit} points (UserUnit): a program that "
             f"passes this over shows it {unit} times too small"
-        ]
-    return []
+        )
+    if names := reckoned(page, output.options):
+        inks = ", ".join(f'"{name}"' for name in names)
+        found.append(
+            f"{path.name}: CMYK of ink {inks} is reckoned from the colour on screen, by no press: "
+            "cmyk = [...] of an ink gives its own"
+        )
+    return found

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import field, replace
 from typing import Annotated, TypeAlias
 
-from batik_vector.artwork import Dyeing, Overlap
+from batik_vector.artwork import Cmyk, Dyeing, Ink, Lab, Overlap
 from batik_vector.errors import Fault, GeometryError, RecipeError
 from batik_vector.fields import HIDDEN, Between, Colour, Length, OneOf, Says, Unset, check
 from batik_vector.recipe.border import BorderSpec
@@ -38,9 +38,25 @@ class InkSpec:
     drawn: Annotated[
         Colour | None, Says("colour that is this ink in drawings which keep theirs; its own when left out")
     ] = None
+    cmyk: Annotated[
+        Cmyk | None, Says("its colour in print, in per cent: the alternate of its separation in PDF")
+    ] = None
+    lab: Annotated[
+        Lab | None,
+        Says("its colour as measured, L*, a*, b* under D50: the alternate of its separation in PDF"),
+    ] = None
 
     def __post_init__(self) -> None:
         check(self)
+        if self.cmyk and 0 < max(self.cmyk) <= 1 and any(part % 1 for part in self.cmyk):
+            shown = ", ".join(f"{part:g}" for part in self.cmyk)
+            raise GeometryError(
+                f"cmyk = [{shown}], expected per cent: 1 is next to nothing, 100 the full ink"
+            )
+
+    def named(self, name: str) -> Ink:
+        """Return the ink as an artwork has it."""
+        return Ink(name, self.colour, self.width, self.overlap, self.cmyk, self.lab)
 
 
 def _one_ink() -> dict[str, InkSpec]:

@@ -13,7 +13,7 @@ import shapely
 from ezdxf.filemanagement import readfile
 from PIL import Image
 
-from batik_vector.artwork import Artwork
+from batik_vector.artwork import Artwork, Overlap
 from batik_vector.export import PdfOptions, SvgOptions, render
 from batik_vector.geometry.outlines import to_polylines
 from batik_vector.machines import Machine
@@ -113,10 +113,11 @@ def test_inkscapes_hpgl_writer_draws_the_cloth_unless_it_is_left_out(tmp_path: P
 
 
 def inked(artwork: Artwork, number: int) -> float:
-    """Share of a page that an ink covers, less what lies above it."""
+    """Share of a page that an ink covers, less what lies above it and is no overlay."""
+    above = [layer for layer in artwork.layers[number + 1 :] if layer.ink.overlap is not Overlap.OVERLAY]
     bodies = [
         shapely.union_all([*layer.areas, *shapely.buffer(layer.lines, layer.ink.width / 2, quad_segs=32)])
-        for layer in artwork.layers[number:]
+        for layer in (artwork.layers[number], *above)
     ]
     page = shapely.box(0, 0, artwork.cell.width, artwork.cell.height)
     seen = shapely.intersection(shapely.difference(bodies[0], shapely.union_all(bodies[1:])), page)

@@ -14,8 +14,9 @@ import shapely
 
 from batik_vector.artwork import Artwork, Cell, Ink, Layer
 from batik_vector.artwork import page as pages
-from batik_vector.export import DxfOptions, GcodeOptions, PdfOptions, SvgOptions, pdf, render, write_page
+from batik_vector.export import DxfOptions, GcodeOptions, PdfOptions, SvgOptions, render, write_page
 from batik_vector.export.numbers import Spelling
+from batik_vector.export.pdf import container
 from batik_vector.processes import order
 
 from .drawings import geometries, line
@@ -152,8 +153,8 @@ def test_memory_does_not_grow_with_the_page(
 ) -> None:
     monkeypatch.setattr(pages, "PIECE", 2000)
     monkeypatch.setattr(order, "BATCH", 2000)
-    monkeypatch.setattr(pdf, "HELD_BACK", 1000)
-    monkeypatch.setattr(pdf, "BLOCK", 1000)
+    monkeypatch.setattr(container, "HELD_BACK", 1000)
+    monkeypatch.setattr(container, "BLOCK", 1000)
     peaks = []
     for marks in (100, 100, 800):
         page = crowd(marks)

@@ -32,6 +32,8 @@ from batik_vector.export import (
     write_artwork,
     write_page,
 )
+from batik_vector.export.pdf import container
+from batik_vector.export.pdf.document import units_per_user_unit
 from batik_vector.geometry.outlines import MM, Outlines, of_polylines
 from batik_vector.tiling.cloth.spec import YardageSpec
 from batik_vector.tiling.cloth.yardage import compile_yardage
@@ -237,8 +239,8 @@ def test_boxes_and_pages_follow_the_margins() -> None:
 
 def test_pages_beyond_five_metres_have_larger_units() -> None:
     page = cloth(width=100, length=12_000)
-    assert pdf.units_per_user_unit(page) == 3
-    assert pdf.units_per_user_unit(cloth(width=100, length=5_000)) == 1
+    assert units_per_user_unit(page) == 3
+    assert units_per_user_unit(cloth(width=100, length=5_000)) == 1
     document = pikepdf.open(io.BytesIO(pdf.render(page)))
     opened = document.pages[0]
     assert float(opened.UserUnit) == 3
@@ -247,8 +249,8 @@ def test_pages_beyond_five_metres_have_larger_units() -> None:
 
 def test_a_long_content_stream_is_written_before_its_length_is_known(monkeypatch: pytest.MonkeyPatch) -> None:
     short = content_of(pdf.render(crowd()))
-    monkeypatch.setattr(pdf, "HELD_BACK", 100)
-    monkeypatch.setattr(pdf, "BLOCK", 64)
+    monkeypatch.setattr(container, "HELD_BACK", 100)
+    monkeypatch.setattr(container, "BLOCK", 64)
     data = pdf.render(crowd())
     # Behind the catalogue, pages, stream, metadata and title come two layers.
     assert b"/Length 9 0 R /Filter" in data

@@ -178,6 +178,12 @@ def test_a_page_in_larger_units_is_warned_of(tmp_path: Path) -> None:
         assert float(opened.pages[0].UserUnit) == 3
 
 
+def test_inks_whose_cmyk_is_reckoned_are_warned_of(tmp_path: Path) -> None:
+    (job,) = jobs(tmp_path, TILE + outputs('format = "pdf"\ninks = "spot"\nalternate = "cmyk"'))
+    (words,) = [words for words in run(job, quiet)["warnings"] if "CMYK" in words]
+    assert words.startswith('dots.pdf: CMYK of ink "wax" is reckoned from the colour on screen')
+
+
 def test_tiles_of_broken_pixels_are_warned_of(tmp_path: Path) -> None:
     for dpi, text, expected in (
         (100, TILE, True),

@@ -16,9 +16,8 @@ import shapely
 from batik_vector.artwork import Artwork, Cell, Ink, Layer
 from batik_vector.export import pdf
 from batik_vector.export.options import Curves, PdfInks, PdfOptions
-
-from .drawings import area_of, empty, geometries, length_of, sample
-from .readers import pdf_rings
+from tests.export.drawings import area_of, empty, geometries, length_of, sample
+from tests.export.readers import pdf_rings
 
 POINT = 25.4 / 72
 

@@ -1,0 +1,74 @@
+"""Print files in Ghostscript, poppler, MuPDF and qpdf: plates as the artwork has them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import shapely
+from PIL import Image
+
+from batik_vector.artwork import Artwork, Cell, Ink, Layer, Overlap
+from batik_vector.export import PdfInks, PdfOptions, render
+from batik_vector.machines import Machine
+from batik_vector.processes.options import TrapProcess
+from tests.clients import programs
+
+pytestmark = pytest.mark.clients
+PROCESS = {"Cyan", "Magenta", "Yellow", "Black"}
+PER_MM = 10.0
+
+
+def layer(ink: Ink, areas: Iterable[shapely.Geometry]) -> Layer:
+    return Layer(ink, np.array([*areas, None], dtype=object)[:-1])
+
+
+def two(overlap: Overlap = Overlap.WELD) -> Artwork:
+    """Two squares of 20 mm, the upper half over the lower, on a tile of 40 mm."""
+    light = Ink("light/warm", "#ffe080", cmyk=(0.0, 10.0, 60.0, 0.0))
+    dark = Ink("dark blue", "#102040", overlap=overlap, lab=(13.0, 5.0, -25.0))
+    areas = [shapely.box(5, 5, 25, 25)], [shapely.box(15, 5, 35, 25)]
+    return Artwork("two", Cell(40_000, 40_000), (layer(light, areas[0]), layer(dark, areas[1])))
+
+
+def inked(artwork: Artwork, folder: Path, **options: Any) -> dict[str, float]:
+    """Square millimetres of each plate that are inked, of spots by name."""
+    pdf = folder / "drawing.pdf"
+    pdf.write_bytes(render(artwork, "pdf", PdfOptions(inks=PdfInks.SPOT, **options)))
+    words = programs.run("qpdf", "--check", pdf, home=folder)
+    assert "No syntax or stream encoding errors found" in words
+    found = {}
+    for name, path in programs.plates(pdf, PER_MM).items():
+        dark = 1 - np.asarray(Image.open(path)).astype(float) / 255
+        found[name.replace("%2F", "/")] = float(dark.sum()) / PER_MM**2
+    assert {found.pop(name) for name in PROCESS} == {0.0}
+    return found
+
+
+@pytest.mark.parametrize("alternate", [None, "rgb", "cmyk", "lab"])
+def test_an_overlay_leaves_the_plate_beneath_whole(tmp_path: Path, alternate: str | None) -> None:
+    plates = inked(two(Overlap.OVERLAY), tmp_path, alternate=alternate)
+    assert plates == {"light/warm": pytest.approx(400, rel=0.01), "dark blue": pytest.approx(400, rel=0.01)}
+
+
+def test_overprint_is_as_asked(tmp_path: Path) -> None:
+    assert inked(two(), tmp_path)["light/warm"] == pytest.approx(200, rel=0.01)
+    assert inked(two(), tmp_path, overprint="all")["light/warm"] == pytest.approx(400, rel=0.01)
+    cut = inked(two(Overlap.OVERLAY), tmp_path, overprint="none")
+    assert cut["light/warm"] == pytest.approx(200, rel=0.01)
+
+
+def test_a_trap_is_on_the_plate_of_the_ink_that_spreads(tmp_path: Path) -> None:
+    light, dark = two().layers
+    beside = replace(two(), layers=(layer(light.ink, [shapely.box(5, 5, 15, 25)]), dark))
+    assert inked(beside, tmp_path)["light/warm"] == pytest.approx(200, rel=0.01)
+    made = TrapProcess(width=1.0).apply(beside, Machine())
+    assert isinstance(made, Artwork)
+    plates = inked(made, tmp_path)
+    assert plates["light/warm"] == pytest.approx(float(made.layers[0].areas[0].area), rel=0.005)
+    assert plates["light/warm"] == pytest.approx(220, rel=0.01)
+    assert plates["dark blue"] == pytest.approx(400, rel=0.01)
