@@ -3,13 +3,32 @@
 from __future__ import annotations
 
 import enum
+import re
 from dataclasses import field
 from typing import Annotated
 
-from batik_vector.fields import HIDDEN, Between, Length, Says, belongs, check
+from batik_vector.fields import HIDDEN, Between, Length, Says, Text, belongs, check
 from batik_vector.machines.hpgl import Hpgl, Origin
 from batik_vector.machines.profile import Machine
 from batik_vector.values import frozen
+
+DATE = r"^\d{4}-\d{2}-\d{2}$"
+
+
+def parse_date(text: str) -> str:
+    """Return a day of the calendar as ``YYYY-MM-DD``.
+
+    Raises:
+        ValueError: with what was expected.
+    """
+    from datetime import date
+
+    try:
+        if not re.fullmatch(DATE, text):
+            raise ValueError
+        return date.fromisoformat(text).isoformat()
+    except ValueError:
+        raise ValueError('expected a day in quotes such as "2026-11-30"') from None
 
 
 class Profile(enum.StrEnum):
@@ -147,9 +166,24 @@ class PdfOptions:
         Overprint,
         Says("which separations leave those beneath whole: overlays and traps (meant), all, or none"),
     ] = Overprint.MEANT
+    icc: Annotated[
+        str, Says('the profile of the press, a file such as "press.icc": the file is written as PDF/X-4')
+    ] = ""
+    condition: Annotated[
+        str, Says('the printing condition by its registered name, such as "FOGRA51"; Custom if unset')
+    ] = ""
+    date: Annotated[
+        str,
+        Text(parse_date, 'a day in quotes such as "2026-11-30"', DATE),
+        Says("the day that PDF/X-4 says it was made on; no clock is read"),
+    ] = "1970-01-01"
+    icc_profile: bytes | None = field(default=None, repr=False, metadata={HIDDEN: True})
+    """The profile, once it has been read."""
 
     def __post_init__(self) -> None:
         check(self)
+        if not self.icc:
+            belongs(self, ("condition", "date"), "icc")
         if self.inks is not PdfInks.SPOT:
             belongs(self, ("alternate", "overprint"), 'inks = "spot"')
 

@@ -17,7 +17,7 @@ from batik_vector.fields import given
 from batik_vector.recipe.drawing import Svg
 from batik_vector.recipe.model import Recipe
 from batik_vector.recipe.reading.builder import UnsureError, built
-from batik_vector.recipe.reading.sources import parted, read_text, scheme_of, with_carried
+from batik_vector.recipe.reading.sources import is_compiled, parted, read_text, scheme_of, with_carried
 from batik_vector.recipe.reading.tables import tables_of
 
 if TYPE_CHECKING:
@@ -129,6 +129,10 @@ def _drawn(
             from batik_vector.recipe.reading.machines import with_machines
 
             recipe = with_machines(recipe, place)
+        if any(getattr(output, "icc", "") for output in recipe.output):
+            from batik_vector.recipe.reading.presses import with_presses
+
+            recipe = with_presses(recipe, None if is_compiled(source) else place)
     except RecipeError as error:
         raise located(error, source, written, overrides) from error
     return recipe

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import re
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -17,10 +18,13 @@ from batik_vector.export import PdfInks, PdfOptions, render
 from batik_vector.machines import Machine
 from batik_vector.processes.options import TrapProcess
 from tests.clients import programs
+from tests.clients.pictures import load
 
 pytestmark = pytest.mark.clients
 PROCESS = {"Cyan", "Magenta", "Yellow", "Black"}
 PER_MM = 10.0
+PRESS = Path("/usr/share/color/icc/ghostscript/default_cmyk.icc")
+"""A profile that comes with Ghostscript."""
 
 
 def layer(ink: Ink, areas: Iterable[shapely.Geometry]) -> Layer:
@@ -72,3 +76,16 @@ def test_a_trap_is_on_the_plate_of_the_ink_that_spreads(tmp_path: Path) -> None:
     assert plates["light/warm"] == pytest.approx(float(made.layers[0].areas[0].area), rel=0.005)
     assert plates["light/warm"] == pytest.approx(220, rel=0.01)
     assert plates["dark blue"] == pytest.approx(400, rel=0.01)
+
+
+@pytest.mark.parametrize("viewer", [programs.poppler, programs.mupdf])
+def test_a_file_for_a_press_is_taken_for_one(tmp_path: Path, viewer: Callable[[Path, float], Path]) -> None:
+    press: Any = {"icc": "press.icc", "icc_profile": PRESS.read_bytes()}
+    plates = inked(two(Overlap.OVERLAY), tmp_path, **press)
+    assert plates == {"light/warm": pytest.approx(400, rel=0.01), "dark blue": pytest.approx(400, rel=0.01)}
+    pdf = tmp_path / "drawing.pdf"
+    words = programs.run("pdfinfo", pdf, home=tmp_path)
+    assert re.search(r"PDF subtype: +PDF/X-4\n", words)
+    picture = np.asarray(load(viewer(pdf, PER_MM)))
+    assert picture[20, 20].min() > 250
+    assert picture[250, 100].tolist() != picture[250, 300].tolist()

@@ -72,6 +72,9 @@ def test_the_schema_accepts_what_compiles(path: Path) -> None:
 BEYOND = {
     *(
         "an ink in parts of one",
+        "a press of which there is no profile",
+        "a press outside of the folder",
+        "a day for no press",
         "an alternate of no separation",
         "border radius without bend",
         "border placement with region",

@@ -6,9 +6,11 @@ import math
 from collections.abc import Iterator
 
 from batik_vector.artwork import Page
+from batik_vector.errors import ExportError, UnsupportedByFormatError
 from batik_vector.export.options import PdfInks, PdfOptions
-from batik_vector.export.pdf import metadata
+from batik_vector.export.pdf import metadata, print_standard
 from batik_vector.export.pdf.container import INFO
+from batik_vector.export.pdf.icc import IccProfile, icc_profile
 from batik_vector.export.pdf.separations import paints_of
 from batik_vector.export.pdf.spelling import number, text
 from batik_vector.units import STEPS_PER_MM
@@ -39,6 +41,24 @@ def size_of(page: Page) -> tuple[int, int]:
     return (cell.columns + margins.left + margins.right, cell.rows + margins.bottom + margins.top)
 
 
+def press_of(options: PdfOptions) -> IccProfile | None:
+    """Return the profile of the press that a file is for, if it is for one.
+
+    Raises:
+        UnsupportedByFormatError: where it has not been read, or is none.
+    """
+    if not options.icc:
+        return None
+    if options.icc_profile is None:
+        raise UnsupportedByFormatError(
+            f'icc = "{options.icc}": not read, expected the file beside the recipe'
+        )
+    try:
+        return icc_profile(options.icc_profile)
+    except ExportError as error:
+        raise UnsupportedByFormatError(f'icc = "{options.icc}": {error}') from error
+
+
 class Document:
     """The numbered objects around the drawing."""
 
@@ -46,13 +66,17 @@ class Document:
         self.page, self.options = page, options
         self.size = size_of(page)
         self.unit = units_per_user_unit(page)
-        self.paints = paints_of(page, options)
+        self.press = press_of(options)
+        if self.press is not None:
+            print_standard.check(page, options, self.press, self.unit)
+        self.paints = paints_of(page, options, self.press.space if self.press else "")
         self.layers = ["cloth"] * options.shows_cloth + [plate.ink.name for plate in page.plates]
         first = INFO + 1
         self.groups = range(first, first + len(self.layers))
         spaces = sum(bool(paint.space) for paint in self.paints)
         self.spaces = range(self.groups.stop, self.groups.stop + spaces)
-        self.length_number = self.spaces.stop
+        self.profile_number = self.spaces.stop
+        self.length_number = self.profile_number + (self.press is not None)
         """Of the object that holds the drawing's length, should that come behind it: the last."""
 
     @property
@@ -63,23 +87,32 @@ class Document:
     def before(self) -> Iterator[bytes]:
         """Yield the objects that come before the drawing."""
         listed = " ".join(f"{each} 0 R" for each in self.groups)
-        order = f"/OCProperties << /OCGs [{listed}] /D << /Order [{listed}] /ON [{listed}] >> >>"
-        catalog = (
-            f"<< /Type /Catalog /Pages {PAGES} 0 R /Metadata {METADATA} 0 R {order if self.layers else ''} >>"
-        )
-        yield catalog.encode("ascii")
+        told = press = ""
+        if self.press is not None:
+            told = f"/Name {text('Layers')} "
+            press = print_standard.catalogue(self.profile_number, self.options, self.press)
+        order = f"/OCProperties << /OCGs [{listed}] /D << {told}/Order [{listed}] /ON [{listed}] >> >>"
+        layers = order if self.layers else ""
+        head = f"<< /Type /Catalog /Pages {PAGES} 0 R /Metadata {METADATA} 0 R"
+        yield f"{head} {press}{layers} >>".encode("ascii")
         yield f"<< /Type /Pages /Kids [{PAGE} 0 R] /Count 1 >>".encode("ascii")
         yield self._page_object()
 
     def behind(self) -> Iterator[bytes]:
         """Yield the objects that come behind it."""
-        packet = metadata.packet(self.page)
+        namespaces = more = info = ""
+        if self.press is not None:
+            namespaces, more = print_standard.NAMESPACES, print_standard.metadata(self.page, self.options)
+            info = print_standard.info(self.page, self.options)
+        packet = metadata.packet(self.page, namespaces, more)
         yield b"<< /Type /Metadata /Subtype /XML /Length %d >>\nstream\n%b\nendstream" % (len(packet), packet)
-        yield metadata.info(self.page)
+        yield metadata.info(self.page, info)
         for name in self.layers:
             yield f"<< /Type /OCG /Name {text(name)} >>".encode("ascii")
         if self.options.inks is PdfInks.SPOT:
             yield from (paint.space for paint in self.paints)
+        if self.press is not None:
+            yield print_standard.profile_object(self.press)
 
     def resources(self) -> str:
         """Return what the drawing names: layers, colour spaces, and how inks lie over one another."""

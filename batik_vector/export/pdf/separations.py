@@ -52,8 +52,12 @@ class Paint:
     overprint: bool = False
 
 
-def paints_of(page: Page, options: PdfOptions) -> list[Paint]:
-    """Return the paints of the layers of a page, the cloth's first where it is drawn."""
+def paints_of(page: Page, options: PdfOptions, press: str = "") -> list[Paint]:
+    """Return the paints of the layers of a page, the cloth's first where it is drawn.
+
+    ``press`` is the colour space of the press that the file is for, if it is for one: ``CMYK``, ``RGB``,
+    ``GRAY``.
+    """
     inks = [plate.ink for plate in page.plates]
     cloth = Ink("cloth", page.cloth)
     if options.inks is not PdfInks.SPOT:
@@ -63,7 +67,8 @@ def paints_of(page: Page, options: PdfOptions) -> list[Paint]:
         # Separations of one name are one plate.
         ground = "cloth (ground)" if any(ink.name == "cloth" for ink in inks) else "cloth"
         plates.insert(0, (ground, cloth, False))
-    return [_spot(number, *plate, options.alternate) for number, plate in enumerate(plates)]
+    chosen = [options.alternate or told(ink, press) for _, ink, _ in plates]
+    return [_spot(number, *plate, chosen[number]) for number, plate in enumerate(plates)]
 
 
 def _screen(colour: str) -> Paint:
@@ -71,22 +76,26 @@ def _screen(colour: str) -> Paint:
     return Paint(f"{parts} rg\n", f"{parts} RG\n")
 
 
-def _spot(number: int, plate: str, ink: Ink, overprint: bool, asked: Alternate | None) -> Paint:
-    space = separation(plate, ink, asked)
+def _spot(number: int, plate: str, ink: Ink, overprint: bool, alternate: Alternate) -> Paint:
+    space = separation(plate, ink, alternate)
     return Paint(f"/S{number} cs 1 scn\n", f"/S{number} CS 1 SCN\n", space, overprint)
 
 
-def separation(plate: str, ink: Ink, asked: Alternate | None) -> bytes:
+def separation(plate: str, ink: Ink, alternate: Alternate) -> bytes:
     """Return the colour space of a spot ink."""
-    alternate = asked or told(ink)
     full, white = numbers(parts_of(ink, alternate)), numbers(WHITE[alternate])
     tint = f"<< /FunctionType 2 /Domain [0 1] /C0 [{white}] /C1 [{full}] /N 1 >>"
     return f"[/Separation /{name(plate)} {SPACES[alternate]} {tint}]".encode("ascii")
 
 
-def told(ink: Ink) -> Alternate:
-    """Return the colour space in which an ink says what it is in print, or else that of screens."""
-    return Alternate.CMYK if ink.cmyk else Alternate.LAB if ink.lab else Alternate.RGB
+def told(ink: Ink, press: str = "") -> Alternate:
+    """Return the colour space in which an ink says what it is in print, or else that of screens.
+
+    What is for a press is in its own colours, or in those of no device.
+    """
+    if ink.cmyk and press in ("", "CMYK"):
+        return Alternate.CMYK
+    return Alternate.LAB if ink.lab or press else Alternate.RGB
 
 
 def plate_name(plate: Plate) -> str:
