@@ -16,7 +16,7 @@ from batik_vector.export.palette import xml_label
 from batik_vector.geometry.outlines import to_polygons, to_polylines, together
 from batik_vector.importing.svg import Reading
 from batik_vector.machines import Machine
-from batik_vector.processes.options import ProcessSpec
+from batik_vector.processes.spec import ProcessSpec
 from batik_vector.recipe.model import Recipe
 from batik_vector.tiling.cloth.field import repeated, with_bleed
 from batik_vector.units import STEPS_PER_MM, format_mm

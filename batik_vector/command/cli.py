@@ -125,15 +125,16 @@ def compile_command(
     machine: str | None,
     pages: str | None,
     margin: str | None,
+    dpi: float | None,
     overrides: Sequence[str],
     jobs: int,
     as_json: bool,
 ) -> None:
     """Compile recipes to files.
 
-    A RECIPE is a TOML file, an SVG, PDF, DXF, HPGL, G-code or PNG compiled from one, or library:NAME; "*"
-    stands for any name. The files of a recipe are written all or not at all, as DIR/NAME.SUFFIX, but for
-    PNGs where the system lacks what draws them.
+    A RECIPE is a TOML file, an SVG, PDF, DXF, HPGL, G-code, PNG or TIFF compiled from one, or
+    library:NAME; "*" stands for any name. The files of a recipe are written all or not at all, as
+    DIR/NAME.SUFFIX, but for PNGs where the system lacks what draws them.
     """
     from pathlib import Path
 
@@ -141,7 +142,7 @@ def compile_command(
 
     collecting()
     with reported(as_json) as report:
-        keys = called(processes, machine, pages, margin)
+        keys = called(processes, machine, pages, margin, dpi)
         work, lacking = ready(planned(read_jobs(matching(recipes), overrides), Path(folder), formats, keys))
         for done in _made(work, jobs, as_json, report):
             report["recipes"].append(done)

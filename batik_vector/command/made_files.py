@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from batik_vector.command.options import FORMATS, format_names
+from batik_vector.command.options import FORMATS, Finite, format_names
 
 _OPTIONS = (
     click.option(
@@ -29,6 +29,7 @@ _OPTIONS = (
         help='What a machine needs done first, as in "cut kerf=0.15mm"; several are done in turn.',
     ),
     click.option("--machine", metavar="NAME", help="The machine it is for: a profile's name, or FILE.toml."),
+    click.option("--dpi", type=Finite(min=1), metavar="N", help="Pixels per inch of cloth, of PNG and TIFF."),
     click.option(
         "--pages",
         type=click.Choice(["one", "tile"]),
@@ -50,7 +51,11 @@ def files_options(command: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def called(
-    processes: Sequence[str], machine: str | None, pages: str | None = None, margin: str | None = None
+    processes: Sequence[str],
+    machine: str | None,
+    pages: str | None = None,
+    margin: str | None = None,
+    dpi: float | None = None,
 ) -> dict[str, Any]:
     """Return the keys of outputs that a call sets for all files."""
     keys: dict[str, Any] = {}
@@ -68,6 +73,8 @@ def called(
         keys["pages"] = Pages(pages)
     if margin is not None:
         keys["margin"] = _length(margin)
+    if dpi is not None:
+        keys["dpi"] = dpi
     return keys
 
 

@@ -23,7 +23,7 @@ class Finite(click.FloatRange):
         return number
 
 
-FORMATS = ("svg", "pdf", "dxf", "hpgl", "gcode", "png")
+FORMATS = ("svg", "pdf", "dxf", "hpgl", "gcode", "png", "tiff")
 """As in :data:`batik_vector.export.FORMATS`, which a test compares."""
 
 

@@ -11,6 +11,8 @@ Facts = Mapping[str, Any]
 
 TOLD_MM = 0.05
 """What is left out is told of in words from here on: shorter stretches are no more than the grid's."""
+LEAST_BARE = 0.005
+"""mm² of cloth that are told of: what rounds to nothing is none."""
 
 
 def told_of(facts: Facts) -> Iterator[str]:
@@ -109,6 +111,20 @@ def _trap(facts: Facts) -> Iterator[str]:
         yield f"{_counted(facts['covered'], 'mark is', 'marks are')} covered whole by traps"
 
 
+def _separate(facts: Facts) -> Iterator[str]:
+    if "covers" in facts:
+        yield f"{facts['ink']}: covers {facts['covers']:.1%} of the page"
+
+
+def _misregister(facts: Facts) -> Iterator[str]:
+    for ink, (right, up) in facts["shifts_mm"].items():
+        if right or up:
+            yield f"{ink} is off by {format_mm(right)} mm to the right and {format_mm(up)} mm up"
+    bare = facts["bare_mm2"]
+    shows = f"{bare:,.2f} mm² of cloth show" if bare >= LEAST_BARE else "no cloth shows"
+    yield f"{shows} between inks"
+
+
 def _cuts(facts: Facts) -> str:
     if not facts["contours"]:
         return "nothing is left to cut"
@@ -156,5 +172,7 @@ _TOLD: dict[str, Callable[[Facts], Iterator[str]]] = {
     "cut": _cut,
     "wax": _wax,
     "trap": _trap,
+    "separate": _separate,
+    "misregister": _misregister,
 }
 """What tells of each process, by its kind."""

@@ -25,6 +25,7 @@ def watch_command(
     machine: str | None,
     pages: str | None,
     margin: str | None,
+    dpi: float | None,
     overrides: Sequence[str],
     as_json: bool,
 ) -> None:
@@ -37,7 +38,7 @@ def watch_command(
 
     collecting()
     watched = Watched(recipe)
-    keys = called(processes, machine, pages, margin)
+    keys = called(processes, machine, pages, margin, dpi)
     _compiled(recipe, folder, formats, keys, overrides, as_json)
     click.echo(f"watching {', '.join(watched.files)}: Ctrl-C ends it", err=True)
     for changed in watched.changes():

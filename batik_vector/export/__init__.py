@@ -33,6 +33,7 @@ from batik_vector.export.options import (
     PngOptions,
     Profile,
     SvgOptions,
+    TiffOptions,
     Turn,
 )
 from batik_vector.fields import Instead, given
@@ -55,6 +56,7 @@ __all__ = [
     "PngOptions",
     "Profile",
     "SvgOptions",
+    "TiffOptions",
     "Turn",
     "format_of",
     "render",
@@ -124,6 +126,9 @@ FORMATS: Mapping[str, Format] = MappingProxyType(
             ".gcode", GcodeOptions, "strokes in the words of a machine", "batik_vector.export.gcode"
         ),
         "png": Format(".png", PngOptions, "a preview for the screen", "batik_vector.export.png"),
+        "tiff": Format(
+            ".tiff", TiffOptions, "plates of one bit, one for each ink", "batik_vector.export.tiff"
+        ),
     }
 )
 

@@ -237,10 +237,23 @@ class GcodeOptions:
 
 @frozen
 class PngOptions:
-    """Options of the PNG preview."""
+    """Options of PNG."""
 
     dpi: Annotated[float, Between(1, 2400), Says("pixels per inch of cloth")] = 100.0
     cloth: Annotated[bool, Says("paint the cloth; without it the ground is transparent")] = True
+    bilevel: Annotated[
+        bool | None, Says("black and white, one bit to a pixel: unless told, what was separated in black is")
+    ] = None
+
+    def __post_init__(self) -> None:
+        check(self)
+
+
+@frozen
+class TiffOptions:
+    """Options of TIFF."""
+
+    dpi: Annotated[float, Between(1, 5080), Says("pixels per inch of cloth")] = 254.0
 
     def __post_init__(self) -> None:
         check(self)

@@ -1,4 +1,4 @@
-"""PNG: a preview for the screen, drawn from our own SVG by cairosvg.
+"""PNG: a preview for the screen, drawn from our own SVG by cairosvg; or a plate of one bit to a pixel.
 
 It shows a tile without its bleed, so previews tile as the cloth does; a page that comes in pieces is shown
 with its margins. The file says its resolution (pHYs) and carries recipe, seed and version (tEXt); it holds
@@ -7,15 +7,15 @@ no time.
 
 from __future__ import annotations
 
-import zlib
 from dataclasses import replace
 from typing import Any, BinaryIO
 
 from batik_vector.artwork import Artwork, Page
 from batik_vector.errors import MissingLibraryError, UnsupportedByFormatError
-from batik_vector.export import svg
+from batik_vector.export import png_bilevel, svg
 from batik_vector.export.options import PngOptions, Profile, SvgOptions
-from batik_vector.export.provenance import PNG_KEYWORD, ascii_line
+from batik_vector.export.png_chunks import physical, text
+from batik_vector.export.walk import in_memory
 from batik_vector.units import STEPS_PER_MM
 
 MAX_PIXELS = 120_000_000
@@ -82,7 +82,10 @@ def _shown(page: Page) -> Page:
 
 def write(page: Page, sink: BinaryIO, options: PngOptions = DEFAULTS) -> None:
     """Write a picture of a page as a PNG file; see :func:`render`."""
-    sink.write(render(page, options))
+    if options.bilevel:
+        png_bilevel.write(_shown(page), sink, options.dpi)
+    else:
+        sink.write(render(page, options))
 
 
 def render(page: Page, options: PngOptions = DEFAULTS) -> bytes:
@@ -91,6 +94,8 @@ def render(page: Page, options: PngOptions = DEFAULTS) -> bytes:
     Raises:
         ExportError: where the page holds what cannot be written, or would have too many pixels or vertices.
     """
+    if options.bilevel:
+        return in_memory(lambda sink: write(page, sink, options))
     width, height = pixel_size(page, options.dpi)
     if page.vertex_count > MAX_VERTICES:
         raise UnsupportedByFormatError(
@@ -101,11 +106,5 @@ def render(page: Page, options: PngOptions = DEFAULTS) -> bytes:
     # Sides are rounded to whole pixels each by itself, and the picture fills them.
     drawing = drawing.replace(b" viewBox=", b' preserveAspectRatio="none" viewBox=', 1)
     data: bytes = cairo_drawer().svg2png(bytestring=drawing, output_width=width, output_height=height)
-    per_metre = round(options.dpi / 0.0254).to_bytes(4, "big")
-    chunks = _chunk(b"pHYs", per_metre + per_metre + b"\1")
-    chunks += _chunk(b"tEXt", PNG_KEYWORD + b"\0" + ascii_line(page.provenance).encode("ascii"))
+    chunks = physical(options.dpi) + text(page.provenance)
     return data[:AFTER_HEADER] + chunks + data[AFTER_HEADER:]
-
-
-def _chunk(kind: bytes, body: bytes) -> bytes:
-    return len(body).to_bytes(4, "big") + kind + body + zlib.crc32(kind + body).to_bytes(4, "big")

@@ -1,7 +1,7 @@
 """Where a file comes from: written into every format, and read back from it.
 
-SVG and PDF hold it as XML under our namespace, readable to people; DXF, PNG and G-code as one line of ASCII
-(JSON, in base64 where a format gives characters meanings of its own). The recipe comes back as it was,
+SVG and PDF hold it as XML under our namespace, readable to people; DXF, PNG, TIFF and G-code as one line of
+ASCII (JSON, in base64 where a format gives characters meanings of its own). The recipe comes back as it was,
 to the character.
 
 Files to read come from strangers. XML with a DOCTYPE is refused, and with it every entity; sizes are
@@ -14,6 +14,7 @@ import base64
 import binascii
 import json
 import re
+import struct
 import zlib
 from collections.abc import Iterator
 from itertools import takewhile
@@ -30,6 +31,7 @@ BASE64 = "-base64"
 DXF_MARK = "BATIK_VECTOR PROVENANCE 1"
 HPGL_MARK = b'CO"BATIK_VECTOR '
 PNG_KEYWORD = b"batik_vector"
+TIFF_DESCRIPTION = 270
 MAX_FILE = 1 << 30
 MAX_RECIPE = 16 << 20
 """Bytes of a file, and of the provenance in it, past which it is refused."""
@@ -85,7 +87,7 @@ def hpgl_comments(provenance: Provenance) -> bytes:
 
 
 def read_provenance(path: str | Path) -> Provenance:
-    """Return the recipe, seed and version that an SVG, PDF, DXF, PNG, HPGL or G-code of ours carries.
+    """Return the recipe, seed and version that an SVG, PDF, DXF, PNG, TIFF, HPGL or G-code of ours carries.
 
     Raises:
         RecipeError: where the file cannot be read, or carries none.
@@ -122,6 +124,8 @@ def _read(data: bytes) -> Provenance | None:
         return _from_pdf(data)
     if data.startswith(b"\x89PNG\r\n\x1a\n"):
         return _from_png(data)
+    if data.startswith(b"II*\0"):
+        return _from_tiff(data)
     if data[:200].lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<"):
         return _from_xml(data)
     if HPGL_MARK in data[:HEAD]:
@@ -252,6 +256,16 @@ def _from_png(data: bytes) -> Provenance | None:
             body = data[at + 8 + len(PNG_KEYWORD) + 1 : at + 8 + length]
             return _from_line(body.decode("latin-1"))
         at += 12 + length
+    return None
+
+
+def _from_tiff(data: bytes) -> Provenance | None:
+    """Return what the image description of a TIFF carries; the numbers of ours begin at their ends."""
+    at = int.from_bytes(data[4:8], "little")
+    for first in range(at + 2, at + 2 + 12 * int.from_bytes(data[at : at + 2], "little"), 12):
+        tag, _, count, place = struct.unpack("<HHII", data[first : first + 12].ljust(12, b"\0"))
+        if tag == TIFF_DESCRIPTION and data[place : place + 1] == b"{":
+            return _from_line(data[place : place + count].rstrip(b"\0").decode("latin-1"))
     return None
 
 

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import shapely
 
 from batik_vector.artwork import Artwork, Layer, Page
+from batik_vector.export.png_chunks import per_metre
 from batik_vector.making.pages import drawings_of, page_size, piece_of
 from batik_vector.recipe.model import OutputSpec, Recipe
-from batik_vector.recipe.outputs import PdfOutput, Piece, PngOutput
+from batik_vector.recipe.outputs import PdfOutput, Piece, PngOutput, TiffOutput
 from batik_vector.tiling.symmetry.machine_fit import pixel_advice
+from batik_vector.units import format_mm
 
 if TYPE_CHECKING:
     from batik_vector.tiling.cloth.yardage import Yardage
@@ -63,7 +66,8 @@ def warnings(recipe: Recipe, artwork: Artwork) -> list[str]:
     for number, output in enumerate(recipe.output):
         # A picture of several repeats is a preview, and no tile to print from.
         tile = piece_of(recipe, output) == Piece.TILE
-        if isinstance(output, PngOutput) and tile and output.repeat == (1, 1):
+        picture = isinstance(output, PngOutput) and not output.options.bilevel
+        if isinstance(output, PngOutput) and picture and tile and output.repeat == (1, 1):
             advice = pixel_advice(artwork.cell, output.dpi)
             found += [f"output[{number}]: {advice}"] if advice else []
     return found
@@ -71,6 +75,8 @@ def warnings(recipe: Recipe, artwork: Artwork) -> list[str]:
 
 def page_warnings(path: Path, output: OutputSpec, page: Page) -> list[str]:
     """Return what readers of a file may take wrongly."""
+    if isinstance(output, TiffOutput) or (isinstance(output, PngOutput) and output.options.bilevel):
+        return [f"{path.name}: {words}" for words in _plate_warnings(output, page)]
     if not isinstance(output, PdfOutput):
         return []
     from batik_vector.export.pdf.document import units_per_user_unit
@@ -89,3 +95,16 @@ def page_warnings(path: Path, output: OutputSpec, page: Page) -> list[str]:
             "cmyk = [...] of an ink gives its own"
         )
     return found
+
+
+def _plate_warnings(output: TiffOutput | PngOutput, page: Page) -> Iterator[str]:
+    """Yield what of a plate's pixels is not whole: those of a repeat, and those of a metre in a PNG."""
+    if isinstance(page, Artwork) and (advice := pixel_advice(page.cell, output.dpi)):
+        yield advice
+    if isinstance(output, PngOutput) and (exact := output.dpi / 0.0254) != (whole := per_metre(output.dpi)):
+        off = abs(exact / whole - 1) * page.cell.width
+        if off >= 0.0005:
+            yield (
+                f"PNG counts whole pixels in a metre, {whole:,} for {output.dpi:g} dpi: by them the width is "
+                f"{format_mm(round(off, 3))} mm off; TIFF says it exactly"
+            )

@@ -20,8 +20,8 @@ from batik_vector.values import frozen
 
 if TYPE_CHECKING:
     from batik_vector.importing.drawing.marks import Drawing
-    from batik_vector.processes.options import ProcessSpec
     from batik_vector.processes.prepared import Prepared
+    from batik_vector.processes.spec import ProcessSpec
 
 _Asked: TypeAlias = "tuple[Page, tuple[ProcessSpec, ...], Machine]"
 Done: TypeAlias = "tuple[Prepared | Artwork, Mapping[str, Any]]"

@@ -14,10 +14,12 @@ from batik_vector.export.options import (
     PdfOptions,
     PngOptions,
     SvgOptions,
+    TiffOptions,
 )
 from batik_vector.fields import HIDDEN, Alone, Between, Length, OneOf, Says, Text, check
 from batik_vector.machines.profile import Machine
 from batik_vector.processes.options import AnyProcess
+from batik_vector.processes.printing.options import PlateColour, SeparateProcess
 from batik_vector.values import frozen
 
 _FILE_WORD = r"[\w][\w .+-]{0,79}(?<![ .])\Z"
@@ -137,16 +139,40 @@ class GcodeOutput(OutputSpec, GcodeOptions):
 
 @frozen(kw_only=True)
 class PngOutput(OutputSpec, PngOptions):
-    """A PNG file: a preview for the screen."""
+    """A PNG file: a preview for the screen, or plates of one bit to a pixel."""
 
     format = "png"
     writer = PngOptions
     travel: Ways = False
     repeat: Annotated[tuple[Count, Count], Says("how many tiles across and up")] = (1, 1)
 
+    @property
+    def options(self) -> PngOptions:
+        """The options of the format's writer; what is separated in black has one bit unless told."""
+        options: PngOptions = OutputSpec.options.__get__(self)
+        plates = [each for each in self.process if isinstance(each, SeparateProcess)]
+        if self.bilevel is None and plates:
+            return replace(options, bilevel=plates[-1].colour == PlateColour.BLACK)
+        return options
+
+
+@frozen(kw_only=True)
+class TiffOutput(OutputSpec, TiffOptions):
+    """TIFF files: plates of one bit to a pixel (CCITT Group 4), one for each ink."""
+
+    format = "tiff"
+    writer = TiffOptions
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if not any(isinstance(each, SeparateProcess) for each in self.process):
+            # One bit tells of one ink.
+            object.__setattr__(self, "process", (*self.process, SeparateProcess()))
+
 
 OUTPUTS: dict[str, type[OutputSpec]] = {
-    output.format: output for output in (SvgOutput, PdfOutput, DxfOutput, HpglOutput, GcodeOutput, PngOutput)
+    output.format: output
+    for output in (SvgOutput, PdfOutput, DxfOutput, HpglOutput, GcodeOutput, PngOutput, TiffOutput)
 }
 """The catalogue of formats that a recipe may ask for."""
 

@@ -117,8 +117,8 @@ def test_every_option_says_what_it_does() -> None:
 def test_a_colour_that_is_none() -> None:
     from dataclasses import replace
 
-    # Tools have no colours.
-    for format in FORMATS.keys() - {"gcode", "hpgl"}:
+    # Tools and plates have no colours.
+    for format in FORMATS.keys() - {"gcode", "hpgl", "tiff"}:
         with pytest.raises(ExportError, match="no colour"):
             render(replace(sample(), layers=(replace(sample().layers[0], ink=bad_ink()),)), format)
 

@@ -10,7 +10,8 @@ from typing import Annotated, Any
 from batik_vector.errors import Fault, RecipeError
 from batik_vector.fields import Alone
 from batik_vector.processes.hatching.options import HATCHES
-from batik_vector.processes.options import AnyProcess, ProcessSpec
+from batik_vector.processes.options import AnyProcess
+from batik_vector.processes.spec import ProcessSpec
 from batik_vector.recipe.reading.overrides import parsed_value
 from batik_vector.recipe.reading.tables import values_of
 from batik_vector.values import frozen

@@ -17,7 +17,7 @@ from batik_vector.recipe.references import quoted
 MAX_TEXT = 1 << 20
 """Bytes of a recipe. The longest by hand has some thousands."""
 MAX_COMPILED = 512 << 20
-COMPILED = (".svg", ".pdf", ".dxf", ".hpgl", ".gcode", ".png")
+COMPILED = (".svg", ".pdf", ".dxf", ".hpgl", ".gcode", ".png", ".tiff")
 _SUFFIXES = (".toml", *COMPILED)
 CARRIED = (
     "\n# The drawings that stood beside the recipe. Without this table they are read from there again.\n"

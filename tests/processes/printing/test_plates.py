@@ -1,0 +1,197 @@
+"""Plates from a recipe to files, by the command that a print studio types."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import shapely
+from PIL import Image
+
+from batik_vector import Artwork, load_recipe
+from batik_vector.artwork import Cell, Ink, Layer
+from batik_vector.certificate import certify
+from batik_vector.command.cli import cli
+from batik_vector.compiling.compiler import compile_recipe
+from batik_vector.errors import GeometryError
+from batik_vector.importing.svg import read_svg
+from batik_vector.machines import Machine
+from batik_vector.processes.printing.options import MisregisterProcess, SeparateProcess
+from tests.calling import runner
+from tests.export.drawings import geometries, line
+
+RECIPE = """
+title = "Plates"
+
+[tile]
+size = ["20 mm", "20 mm"]
+
+[cloth]
+colour = "#ffffff"
+
+[ink."straw/1"]
+colour = "#e8d070"
+
+[ink.indigo]
+colour = "#1d2f5f"
+overlap = "knockout"
+
+[ink.lines]
+colour = "#a03020"
+width = "0.8 mm"
+
+[motif.dot]
+kind = "rosette"
+elements = [{ curve = { kind = "circle", radius = 1 }, count = 1 }]
+
+[motif.ring]
+kind = "rosette"
+elements = [{ curve = { kind = "circle", radius = 1 }, count = 1, treatment = "stroke" }]
+
+[[place]]
+motif = "dot"
+scale = 6
+ink = "straw/1"
+
+[[place]]
+motif = "dot"
+scale = 3
+at = [10, 15]
+ink = "indigo"
+
+[[place]]
+motif = "ring"
+scale = 4
+at = [0, 0]
+ink = "lines"
+"""
+ENDS = ("straw-1", "indigo", "lines")
+
+
+@pytest.fixture
+def recipe(tmp_path: Path) -> Path:
+    place = tmp_path / "p.toml"
+    place.write_text(RECIPE)
+    return place
+
+
+def call(recipe: Path, *args: str) -> tuple[int, dict[str, Any], str]:
+    done = runner().invoke(cli, ["compile", str(recipe), "-o", str(recipe.parent / "out"), "--json", *args])
+    return done.exit_code, json.loads(done.stdout), done.stderr
+
+
+def test_a_file_for_each_ink_in_every_format(recipe: Path) -> None:
+    code, report, _ = call(recipe, "-f", "svg,pdf,png,tiff", "--process", "separate", "--dpi", "254")
+    assert code == 0
+    names = {Path(each["path"]).name for each in report["recipes"][0]["files"]}
+    assert names == {f"p-{end}.{suffix}" for end in ENDS for suffix in ("svg", "pdf", "png", "tiff")}
+    whole = compile_recipe(load_recipe(recipe))
+    for layer, end in zip(whole.layers, ENDS, strict=True):
+        out = recipe.parent / "out" / f"p-{end}"
+        (plate,) = read_svg(out.with_suffix(".svg")).artwork.layers
+        assert (plate.ink.name, plate.ink.colour) == (layer.ink.name, "#000000")
+        want = float(shapely.area(layer.areas).sum()) or np.pi * 8 * 0.8
+        assert shapely.area(plate.areas).sum() == pytest.approx(want, rel=2e-3)
+        tiff, png = (Image.open(out.with_suffix(suffix)) for suffix in (".tiff", ".png"))
+        assert (tiff.size, tiff.mode, png.mode) == ((200, 200), "1", "1")
+        assert np.array_equal(np.asarray(tiff), np.asarray(png))
+        assert 400 * (1 - np.asarray(tiff).mean()) == pytest.approx(want, rel=0.02)
+
+
+def test_tiff_alone_is_separated_and_its_recipe_comes_back(recipe: Path) -> None:
+    code, report, _ = call(recipe, "-f", "tiff")
+    assert (code, len(report["recipes"][0]["files"])) == (0, 3)
+    code, report, _ = call(recipe.parent / "out" / "p-indigo.tiff", "-f", "svg")
+    assert (code, report["recipes"][0]["title"]) == (0, "Plates")
+
+
+def test_the_half_of_a_line_across_the_edge_is_on_the_other_one() -> None:
+    # Along the tile's left edge, with its twin cut away.
+    layer = Layer(Ink("line", "#000000", 2.0), lines=geometries(line((0, 0), (0, 10))))
+    tile = Artwork("edge", Cell(10_000, 10_000), (layer,))
+    done = SeparateProcess().apply(tile, Machine())
+    assert isinstance(done, Artwork)
+    covered = shapely.union_all(done.layers[0].areas)
+    assert covered.equals(shapely.union_all([shapely.box(0, 0, 1, 10), shapely.box(9, 0, 10, 10)]))
+    assert certify(done).passed
+
+
+def test_pixels_that_are_not_whole_are_told(recipe: Path) -> None:
+    _, report, _ = call(recipe, "-f", "tiff,png", "--process", "separate", "--dpi", "150")
+    words = report["recipes"][0]["warnings"]
+    assert [each.split(":")[0] for each in words] == ["p.tiff", "p.png", "p.png"]
+    assert "118.11 pixels" in words[0]
+    assert "whole pixels in a metre, 5,906 for 150 dpi" in words[2]
+    _, report, _ = call(recipe, "-f", "png,tiff", "--process", "separate", "--dpi", "254")
+    assert report["recipes"][0]["warnings"] == []
+
+
+@pytest.mark.parametrize(
+    ("process", "words"),
+    [
+        ("separate ink=indgo", 'process.ink: unknown ink "indgo": did you mean "indigo"?'),
+        ("separate colour=red", 'unknown colour "red"'),
+        ("misregister by=30mm", "expected 0 to 20 mm"),
+        ("misregister shifts.indgo=[0.1,0]", 'did you mean "indigo"?'),
+        ("misregister seed=2 shifts.indigo=[0.1,0]", "nothing to chance"),
+    ],
+)
+def test_what_is_wrong_is_told_and_nothing_written(recipe: Path, process: str, words: str) -> None:
+    done = runner().invoke(
+        cli, ["compile", str(recipe), "-o", str(recipe.parent / "out"), "-f", "svg", "--process", process]
+    )
+    assert (done.exit_code, words in done.stderr, done.stderr.count("\n")) == (2, True, 1), done.stderr
+    assert not (recipe.parent / "out").exists()
+
+
+def two_inks(gap: float = 0.0) -> Artwork:
+    """A square of one ink that is cut out of another; there is cloth on the left and on the right."""
+    light = geometries(shapely.difference(shapely.box(2, 2, 18, 18), shapely.box(6, 6, 14, 14)))
+    dark = geometries(shapely.box(6 - gap, 6 - gap, 14 + gap, 14 + gap))
+    return Artwork(
+        "two",
+        Cell(20_000, 20_000),
+        (Layer(Ink("light", "#e8d070"), light), Layer(Ink("dark", "#1d2f5f"), dark)),
+    )
+
+
+def off(artwork: Artwork, **keys: Any) -> Artwork:
+    done = MisregisterProcess(**keys).apply(artwork, Machine())
+    assert isinstance(done, Artwork)
+    return done
+
+
+def test_ink_out_of_register_bares_what_a_trap_covers() -> None:
+    bare = off(two_inks(), shifts={"dark": (0.3, 0.1)}).facts["misregister"]["bare_mm2"]
+    # A strip on the left and one below, but for the corner that both have.
+    assert bare == pytest.approx(8 * 0.3 + 8 * 0.1 - 0.3 * 0.1, abs=1e-3)
+    assert off(two_inks(0.3), shifts={"dark": (0.3, 0.1)}).facts["misregister"]["bare_mm2"] == 0
+
+
+def test_seeds_give_directions_and_the_first_ink_stays() -> None:
+    vectors = [off(two_inks(), by=0.4, seed=seed).facts["misregister"]["shifts_mm"] for seed in (0, 0, 1)]
+    assert vectors[0] == vectors[1] != vectors[2]
+    assert vectors[0]["light"] == [0, 0]
+    assert np.hypot(*vectors[0]["dark"]) == pytest.approx(0.4, abs=1e-3)
+
+
+def test_a_shifted_tile_is_a_tile_and_loses_nothing() -> None:
+    whole = compile_recipe_of(RECIPE)
+    done = off(whole, by=1.3, seed=4)
+    assert certify(done).passed
+    for before, after in zip(whole.layers[:2], done.layers[:2], strict=True):
+        assert shapely.area(after.areas).sum() == pytest.approx(shapely.area(before.areas).sum(), abs=0.02)
+
+
+def compile_recipe_of(text: str) -> Artwork:
+    from batik_vector.recipe.loading import read_recipe
+
+    return compile_recipe(read_recipe(text))
+
+
+def test_a_plate_that_is_none_is_refused() -> None:
+    with pytest.raises(GeometryError, match="the page has no ink"):
+        SeparateProcess().apply(Artwork("", Cell(10, 10), ()), Machine())
