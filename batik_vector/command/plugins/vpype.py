@@ -16,7 +16,7 @@ from vpype_cli import global_processor
 
 if TYPE_CHECKING:
     from batik_vector.artwork import Page
-    from batik_vector.processes.options import ProcessSpec
+    from batik_vector.processes.spec import ProcessSpec
 
 HATCHES = ("parallel", "cross", "concentric", "spiral")
 """As in :data:`batik_vector.processes.hatching.options.HATCHES`, which a test compares."""
@@ -94,7 +94,8 @@ def _page(
 
 def _with_strokes(processes: tuple[ProcessSpec, ...]) -> tuple[ProcessSpec, ...]:
     """Return processes that leave strokes in the end, for vpype knows no areas."""
-    from batik_vector.processes.options import PlotProcess, StrokeProcess
+    from batik_vector.processes.options import PlotProcess
+    from batik_vector.processes.spec import StrokeProcess
 
     if processes and isinstance(processes[-1], StrokeProcess):
         return processes

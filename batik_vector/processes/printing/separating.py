@@ -20,6 +20,7 @@ from batik_vector.artwork import (
     Cell,
     Dyeing,
     Geometries,
+    Ink,
     Layer,
     Margins,
     Page,
