@@ -22,7 +22,7 @@ WARM = 8
 ONE = """
 async ([id, value]) => {
   const before = studio.state.shown, begun = performance.now();
-  getElement(id).$emit('update:modelValue', value);
+  getElement(id).move(value);
   while (studio.state.shown === before) {
     if (performance.now() - begun > 20000) return null;
     await new Promise(requestAnimationFrame);
@@ -34,7 +34,7 @@ DRAGGED = """
 async ([id, values, pace]) => {
   const seen = new Set([studio.state.shown]);
   for (const value of values) {
-    getElement(id).$emit('update:modelValue', value);
+    getElement(id).move(value);
     const until = performance.now() + pace;
     while (performance.now() < until) {
       await new Promise(requestAnimationFrame);

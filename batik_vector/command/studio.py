@@ -27,7 +27,10 @@ PORT = 8642
     help="The library to work with.  [default: that of BATIK_LIBRARY, or your own]",
 )
 @click.option("--no-browser", is_flag=True, help="Print the address, and open nothing.")
-def studio_command(recipe: str | None, port: int | None, library: str | None, no_browser: bool) -> None:
+@click.option("--watch", "follow", is_flag=True, help="Show what is saved to the recipe's file elsewhere.")
+def studio_command(
+    recipe: str | None, port: int | None, library: str | None, no_browser: bool, follow: bool
+) -> None:
     """Open the studio: a page with sliders, the library, and the pattern as it will be cut.
 
     A RECIPE is a TOML file, a file compiled from one, or library:NAME. Without it the studio goes on where it
@@ -37,10 +40,18 @@ def studio_command(recipe: str | None, port: int | None, library: str | None, no
         # Processes that this one begins look there, too.
         os.environ["BATIK_LIBRARY"] = library
     from batik_vector.studio.server import opened_session, serve
+    from batik_vector.studio.watching import Watched
 
+    if follow and recipe is None:
+        raise click.UsageError("--watch needs a RECIPE to watch")
     collecting()
+    watched = Watched(recipe) if follow and recipe is not None else None
     session = opened_session(recipe)
     try:
-        serve(session, port, PORT, not no_browser, lambda address: click.echo(f"{address}\nCtrl-C ends it."))
+        serve(session, port, PORT, not no_browser, _say, watched)
     finally:
         session.close()
+
+
+def _say(address: str) -> None:
+    click.echo(f"{address}\nCtrl-C ends it.")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import click
@@ -16,6 +16,7 @@ from batik_vector.command.telling import collecting, faults_told
 @click.argument("recipe")
 @files_options
 @set_option
+@click.option("--page", is_flag=True, help="Show it in the studio's page, too.")
 @click.option("--json", "as_json", is_flag=True, help="Print a report for machines on stdout, a line a save.")
 def watch_command(
     recipe: str,
@@ -27,6 +28,7 @@ def watch_command(
     margin: str | None,
     dpi: float | None,
     overrides: Sequence[str],
+    page: bool,
     as_json: bool,
 ) -> None:
     """Compile a recipe, and again on every save of its file and of the drawings and machines it names.
@@ -39,11 +41,39 @@ def watch_command(
     collecting()
     watched = Watched(recipe)
     keys = called(processes, machine, pages, margin, dpi)
-    _compiled(recipe, folder, formats, keys, overrides, as_json)
-    click.echo(f"watching {', '.join(watched.files)}: Ctrl-C ends it", err=True)
-    for changed in watched.changes():
-        click.echo(f"{', '.join(changed)} saved", err=True)
+
+    def work() -> None:
         _compiled(recipe, folder, formats, keys, overrides, as_json)
+        click.echo(f"watching {', '.join(watched.files)}: Ctrl-C ends it", err=True)
+        for changed in watched.changes():
+            click.echo(f"{', '.join(changed)} saved", err=True)
+            _compiled(recipe, folder, formats, keys, overrides, as_json)
+
+    if page:
+        _shown(recipe, work)
+    else:
+        work()
+
+
+def _shown(recipe: str, work: Callable[[], None]) -> None:
+    """Have the studio's page follow the recipe, and work beside it.
+
+    Raises:
+        BatikError: where the studio's libraries are missing.
+    """
+    import threading
+
+    from batik_vector.command.studio import PORT
+    from batik_vector.studio.server import opened_session, serve
+    from batik_vector.studio.watching import Watched
+
+    session = opened_session(recipe)
+    try:
+        threading.Thread(target=work, daemon=True).start()
+        # Reports are alone on stdout.
+        serve(session, None, PORT, True, lambda address: click.echo(address, err=True), Watched(recipe))
+    finally:
+        session.close()
 
 
 def _compiled(

@@ -25,9 +25,16 @@ T = TypeVar("T")
 class Aside:
     """One process, started when it is first needed."""
 
-    def __init__(self) -> None:
+    def __init__(self, *, yields: bool = False) -> None:
+        """Make ready.
+
+        Args:
+            yields: whether it works when no other process wants to, where the system can tell.
+        """
+        self._yields = yields
         self._pool: ProcessPoolExecutor | None = None
         self._turn = asyncio.Lock()
+        self._ended = False
 
     async def run(self, patience: float, function: Callable[P, T], *args: P.args, **kwargs: P.kwargs) -> T:
         """Return what a function of a module returns there.
@@ -40,8 +47,11 @@ class Aside:
             BatikError: where it takes longer, or the process dies, or what the function raises.
         """
         async with self._turn:
+            if self._ended:
+                raise BatikError("the studio was closed")
             if self._pool is None:
-                self._pool = ProcessPoolExecutor(1, multiprocessing.get_context("spawn"), _begin)
+                context = multiprocessing.get_context("spawn")
+                self._pool = ProcessPoolExecutor(1, context, _begin, (self._yields,))
             work = asyncio.wrap_future(self._pool.submit(function, *args, **kwargs))
             try:
                 return await asyncio.wait_for(work, patience)
@@ -60,9 +70,16 @@ class Aside:
                 process.kill()
             pool.shutdown(wait=False, cancel_futures=True)
 
+    def end(self) -> None:
+        """End the process for good."""
+        self._ended = True
+        self.close()
 
-def _begin() -> None:
+
+def _begin(yields: bool) -> None:
     """Be deaf to Ctrl-C, and end with the studio, however that ends."""
+    if yields and hasattr(os, "nice"):
+        os.nice(5)
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     parent = multiprocessing.parent_process()
 

@@ -26,6 +26,7 @@ class View:
         across, up: tiles of a field.
         certify: whether the tile is measured too, for the verdict.
         pointers: whether what the certificate finds wrong is marked in the picture, in a layer "check".
+        rough: whether it is looked at for a moment alone, while a slider moves: edges may be some pixels off.
     """
 
     kind: str = "tile"
@@ -35,6 +36,7 @@ class View:
     up: int = 4
     certify: bool = False
     pointers: bool = False
+    rough: bool = False
 
     def __post_init__(self) -> None:
         if self.kind not in KINDS:

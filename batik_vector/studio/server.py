@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
 import importlib.util
 import os
@@ -14,10 +15,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from batik_vector.errors import BatikError
+from batik_vector.studio.following import follow
 from batik_vector.studio.guard import Guard, House
 
 if TYPE_CHECKING:
     from batik_vector.studio.page.session import Session
+    from batik_vector.studio.watching import Watched
 
 BEGUN = "library:starter/flower"
 """What is open where nothing was left."""
@@ -75,7 +78,14 @@ def listening(port: int) -> socket.socket:
     return made
 
 
-def serve(session: Session, port: int | None, usual: int, browser: bool, say: Callable[[str], None]) -> None:
+def serve(
+    session: Session,
+    port: int | None,
+    usual: int,
+    browser: bool,
+    say: Callable[[str], None],
+    watched: Watched | None = None,
+) -> None:
     """Serve the studio until it is interrupted.
 
     Args:
@@ -84,6 +94,7 @@ def serve(session: Session, port: int | None, usual: int, browser: bool, say: Ca
         usual: the usual port.
         browser: whether to open the page in the user's browser.
         say: told the address once the page can be opened.
+        watched: the files that the page follows, where it does.
 
     Raises:
         StudioError: where the port is taken.
@@ -98,13 +109,17 @@ def serve(session: Session, port: int | None, usual: int, browser: bool, say: Ca
         door = listening(0)
     house = House(door.getsockname()[1], secrets.token_urlsafe(24))
 
+    following = []
+
     def opened() -> None:
+        if watched is not None:
+            following.append(asyncio.create_task(follow(session, watched)))
         say(house.address)
         if browser:
             webbrowser.open(house.address)
 
     with door:
-        _server(application(session, house), opened).run(sockets=[door])
+        _server(application(session, house), opened, session.end_asides).run(sockets=[door])
 
 
 def application(session: Session, house: House) -> Guard:
@@ -113,12 +128,13 @@ def application(session: Session, house: House) -> Guard:
     from nicegui import ui
     from starlette.staticfiles import StaticFiles
 
-    from batik_vector.studio.page import transfers
+    from batik_vector.studio.page import live, transfers
     from batik_vector.studio.page.layout import page_of
 
     app = fastapi.FastAPI(openapi_url=None)
     app.mount("/studio/static", StaticFiles(directory=PAGE))
     transfers.add_routes(app, session)
+    live.add_route(app, session.tabs)
     ui.run_with(
         app,
         root=page_of(session),
@@ -134,7 +150,7 @@ def application(session: Session, house: House) -> Guard:
     return Guard(app, house)
 
 
-def _server(app: Guard, opened: Callable[[], None]) -> Any:
+def _server(app: Guard, opened: Callable[[], None], closing: Callable[[], None]) -> Any:
     import uvicorn
 
     class Server(uvicorn.Server):
@@ -145,6 +161,11 @@ def _server(app: Guard, opened: Callable[[], None]) -> Any:
             if self.started:
                 opened()
 
+        async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
+            # Who waits for a small picture is answered, and does not keep the server from ending.
+            closing()
+            await super().shutdown(sockets)
+
     config = uvicorn.Config(
         app,
         log_level="warning" if "BATIK_STUDIO_LOG" not in os.environ else "info",
@@ -152,6 +173,8 @@ def _server(app: Guard, opened: Callable[[], None]) -> Any:
         server_header=False,
         timeout_graceful_shutdown=1,
         ws_max_size=LARGEST_MESSAGE,
+        # Nothing leaves this machine: to press it together takes longer than to send it.
+        ws_per_message_deflate=False,
         # What comes in wheels for every system; uvloop is not for Windows.
         loop="asyncio" if sys.platform == "win32" else "auto",
     )

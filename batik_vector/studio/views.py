@@ -31,6 +31,10 @@ from batik_vector.values import frozen
 METRE = 1000.0
 SHARP = 2000.0
 """Parts of a form's side to which edges on it are true."""
+FINE, ROUGH = 2000.0, 300.0
+"""Parts of what is shown to which its edges are true: half a pixel of a large window, and some pixels."""
+FINER = 4.0
+"""How many times finer than need be a tile may be that is at hand, and still serve another view."""
 MOST_SHOWN = 1_500_000
 """Vertices of a picture that a browser still moves."""
 
@@ -95,19 +99,18 @@ class Looker:
     def _compiled(
         self, draft: Draft, view: View, tell: Callable[[str], None]
     ) -> tuple[Recipe, Artwork | None]:
-        # On a form half a millimetre is less than a pixel.
-        form = max(FORMS[view.kind].size) / SHARP if view.kind in FORMS else 0.0
-        tolerance = max(view.tolerance, form)
-        key = draft.text, draft.folder, draft.drawings, tolerance
-        if self._known is not None and self._known[0] == key:
-            return self._known[1:]
-        recipe = read_recipe(draft.text, draft.stem, folder=draft.folder, drawings=dict(draft.drawings))
-        if recipe.tolerance < tolerance:
-            recipe = replace(recipe, tolerance=tolerance)
-        tile = compile_recipe(recipe, progress=tell) if recipe.tile is not None else None
+        key = draft.text, draft.folder, draft.drawings
+        if self._known is None or self._known[0] != key:
+            recipe = read_recipe(draft.text, draft.stem, folder=draft.folder, drawings=dict(draft.drawings))
+            self._known = key, recipe, None
+        _, recipe, tile = self._known
+        looked_at = replace(recipe, tolerance=max(recipe.tolerance, _tolerance(recipe, view)))
+        # Somewhat finer than need be is sooner there than what is compiled anew.
+        if tile is None or not tile.tolerance <= looked_at.tolerance <= FINER * tile.tolerance:
+            tile = compile_recipe(looked_at, progress=tell) if recipe.tile is not None else None
         # What it names may change on the disk.
         self._known = None if recipe.drawing else (key, recipe, tile)
-        return recipe, tile
+        return looked_at, tile
 
     def _drawn(
         self, recipe: Recipe, tile: Artwork | None, view: View, tell: Callable[[str], None]
@@ -128,6 +131,22 @@ class Looker:
                 "fewer repeats"
             )
         return svg_text(page, SHOWN), (page.cell.width, page.cell.height)
+
+
+def _tiles(view: View) -> int:
+    """Return how many tiles lie side by side in a view; 0 where the tile is not what is looked at."""
+    return {"tile": 1, "three": 3, "field": max(view.across, view.up)}.get(view.kind, 0)
+
+
+def _tolerance(recipe: Recipe, view: View) -> float:
+    """Return how far edges may be off: what a screen cannot show, or what a moment does not."""
+    if view.kind in FORMS:
+        # On a form half a millimetre is less than a pixel.
+        return max(view.tolerance, max(FORMS[view.kind].size) / SHARP)
+    if recipe.tile is None or not (count := _tiles(view)):
+        return view.tolerance
+    side = count * max(recipe.tiling.cell().width, recipe.tiling.cell().height)
+    return max(view.tolerance, side / ROUGH) if view.rough else min(view.tolerance, side / FINE)
 
 
 SHOWN = SvgOptions(profile=Profile.COMPACT)

@@ -18,6 +18,7 @@ import pytest
 from batik_vector import Artwork, Profile, Recipe, SvgOptions, compile_recipe, render
 from batik_vector.errors import GeometryError
 from batik_vector.studio.asking import KINDS, View
+from batik_vector.studio.changes import scaled
 from batik_vector.studio.drafts import Draft
 from batik_vector.studio.pictures import Picture, Pictures
 from batik_vector.studio.views import Looker
@@ -92,6 +93,20 @@ def test_another_view_of_a_draft_is_not_compiled_again(monkeypatch: pytest.Monke
     assert len(counted) == 1
     looker.look(FIRST.with_value("seed", 1), View())
     assert len(counted) == 2
+
+
+def test_small_tiles_are_drawn_finer_and_a_slider_that_moves_coarser() -> None:
+    counted = {}
+    looker = Looker()
+    for by in (0.5, 5):
+        draft = scaled(FIRST, by).with_value("tolerance", 0.002)
+        for rough in (False, True):
+            shown = looker.look(draft, View(rough=rough))
+            counted[by, rough] = shown.facts["vertices"], shown.facts["size_mm"][0]
+    # Half a pixel is a part of what is shown, up to a tolerance in mm.
+    assert counted[0.5, False][0] > 2 * counted[0.5, True][0]
+    assert counted[5, False][0] > counted[0.5, False][0]
+    assert counted[5, True][0] == pytest.approx(counted[0.5, True][0], rel=0.05)
 
 
 def test_faults_have_their_keys_and_lines() -> None:

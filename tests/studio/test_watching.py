@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import asyncio
 import json
 import os
 import signal
@@ -7,12 +8,15 @@ import subprocess
 import sys
 from collections.abc import Iterable, Iterator
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
 from batik_vector.command.watch import watch_command
 from batik_vector.errors import RecipeError
 from batik_vector.studio import watching
+from batik_vector.studio.drafts import Draft
+from batik_vector.studio.following import follow
 from batik_vector.studio.watching import GONE, REST, Watched
 from tests.calling import runner
 from tests.recipe.test_bad_input import BASE
@@ -175,3 +179,29 @@ def until(lines: Iterable[str], word: str) -> str:
 
 def test_files_are_asked_rarely_enough() -> None:
     assert 1 / watching.PERIOD <= 20
+
+
+def test_the_page_follows_what_is_saved_elsewhere(recipe: Path) -> None:
+    drafts: list[Draft] = []
+
+    async def saved(text: str) -> Draft:
+        before = len(drafts)
+        recipe.write_text(text, "utf-8")
+        async with asyncio.timeout(20):
+            while len(drafts) == before:
+                await asyncio.sleep(0.02)
+        return drafts[-1]
+
+    async def run() -> None:
+        watched = Watched(str(recipe))
+        following = asyncio.create_task(follow(SimpleNamespace(follow=drafts.append), watched))  # type: ignore[arg-type]
+        good = recipe.read_text("utf-8")
+        assert (await saved(good + "# more\n")).text.endswith("# more\n")
+        # What is wrong is shown, too; a file that is gone is waited for.
+        assert (await saved("tile = [")).faults
+        recipe.unlink()
+        await asyncio.sleep(0.3)
+        assert (await saved(good)).text == good
+        following.cancel()
+
+    asyncio.run(run())

@@ -21,8 +21,6 @@ if TYPE_CHECKING:
     from batik_vector.studio.offers import Offer
     from batik_vector.studio.page.session import Session
 
-PAUSE = 0.15
-"""Seconds after a change until panels are looked through again: while a slider is dragged it moves alone."""
 MOST_PLAIN = 6
 """Controls of a table past which those that are not often set stand behind a button."""
 
@@ -39,22 +37,15 @@ class Controls:
         self.session = session
         self.open: set[str] = set()
         self.more: set[str] = set()
+        self._stem: str | None = None
         self._sections: dict[str, Section] = {}
-        self._timer: ui.timer | None = None
         with group("scroll") as self.box:
             self.wrong = text("", "pad fault small", "p").props("role=alert")
             self.wrong.set_visibility(False)
             self.rows = group("panels")
-        self._draw()
 
     def refresh(self) -> None:
-        """Show the parameters as they are now, soon."""
-        if self._timer is not None:
-            self._timer.cancel()
-        with self.box:
-            self._timer = ui.timer(PAUSE, self._draw, once=True)
-
-    def _draw(self) -> None:
+        """Show the parameters as they are now."""
         try:
             found = panels(self.session.draft, self.session.faults)
         except BatikError:
@@ -63,8 +54,9 @@ class Controls:
             self.wrong.set_visibility(True)
             return
         self.wrong.set_visibility(False)
-        if not self.open:
-            self.open = set(_opened(found))
+        if self._stem != self.session.draft.stem:
+            self._stem = self.session.draft.stem
+            self.open.update(_opened(found))
         for panel in found:
             mine = Group(f"panel:{panel.name}", panel.name.capitalize(), groups=panel.groups)
             self.section(mine, self.rows, 0, len(found))

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
-from urllib.parse import quote
 
 from nicegui import ui
 
 from batik_vector.errors import BatikError
 from batik_vector.studio import changes
+from batik_vector.studio.page.library import Thumb
 from batik_vector.studio.page.parts import group, icon_button, main_button, say, text, told, word_button
 from batik_vector.studio.saving import NewerError
 
@@ -55,8 +55,7 @@ def begin(session: Session) -> None:
             for hit in sorted(found, key=lambda hit: hit.name):
                 button = ui.element("button").classes("pattern").props("type=button")
                 with button:
-                    address = f"/studio/thumbnail?name={quote(f'{hit.name}@{hit.version}')}"
-                    ui.element("img").props(f'src="{address}" alt="" loading=lazy')
+                    Thumb(f"{hit.name}@{hit.version}")
                     text(hit.title or hit.name, "name")
                 button.on("click", lambda name=hit.name: chosen(name))
 

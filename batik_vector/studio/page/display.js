@@ -23,12 +23,10 @@ window.studio = (() => {
     .off { display: none; }
     canvas { position: absolute; left: 0; top: 0; }
   `;
-  const token = { host: null, seq: 0 };
+  const token = { host: null, shown: 0 };
   let shadow, stage, art = null, over, rulerX, rulerY;
   let size = [1, 1], centre = [0.5, 0.5], scale = 1, fitted = true, lines = false, hidden = new Set();
   let guides = [], pins = [], showGuides = false, showPins = true, pending = false, screenMm = MM;
-
-  const emit = (name, detail) => token.host && token.host.dispatchEvent(new CustomEvent(name, { detail, bubbles: true }));
 
   function mount(host) {
     if (token.host === host) return;
@@ -51,13 +49,8 @@ window.studio = (() => {
     if (art) stage.prepend(art);
   }
 
-  // Bring a new picture in, unless a newer one is there already.
-  async function show(url, seq, meta) {
-    const answer = await fetch(url, { cache: "no-store" });
-    if (!answer.ok || seq < token.seq) return;
-    const text = await answer.text();
-    if (seq < token.seq) return;
-    token.seq = seq;
+  // Bring a new picture in, and tell what is known of it in the line below.
+  function show(text, head) {
     const parsed = new DOMParser().parseFromString(text, "image/svg+xml").documentElement;
     if (parsed.nodeName !== "svg") return;
     for (const each of parsed.querySelectorAll("metadata, script, foreignObject")) each.remove();
@@ -75,11 +68,26 @@ window.studio = (() => {
     art = made;
     const fresh = box[2] !== size[0] || box[3] !== size[1];
     size = [box[2], box[3]];
-    guides = meta.guides || [];
+    guides = head.guides || [];
     pins = [];
+    for (const [name, words] of Object.entries(head.words)) say(`said-${name}`, words);
+    if (!head.certified) verdict("", true);
     applyLayers();
     if (fresh || fitted) fit(); else draw();
-    requestAnimationFrame(() => { token.shown = seq; token.at = performance.now(); emit("studio-shown", seq); });
+    requestAnimationFrame(() => { token.shown++; token.at = performance.now(); });
+  }
+
+  function verdict(words, good) {
+    say("said-verdict", words);
+    for (const each of document.getElementsByClassName("said-verdict")) {
+      each.classList.toggle("good", good);
+      each.classList.toggle("bad", !good);
+    }
+  }
+
+  // Words of the line below are the display's own: the page's elements are not asked.
+  function say(name, words) {
+    for (const each of document.getElementsByClassName(name)) if (each.textContent !== words) each.textContent = words;
   }
 
   function applyLayers() {
@@ -161,7 +169,7 @@ window.studio = (() => {
     over.replaceChildren(...marks(w, h));
     ruler(rulerX, w, 0);
     ruler(rulerY, h, 1);
-    emit("studio-zoom", scale / screenMm);
+    say("zoom", `${((100 * scale) / screenMm).toFixed(0)}%`);
   }
 
   function marks(w, h) {
@@ -273,7 +281,7 @@ window.studio = (() => {
   for (const name of ["focusin", "keydown", "keyup"]) document.addEventListener(name, nameSlider);
 
   return {
-    mount, show, fit, actual, zoom: (factor) => zoom(factor), choose, state: token,
+    mount, show, verdict, fit, actual, zoom: (factor) => zoom(factor), choose, state: token,
     lines: (on) => { lines = on; applyLayers(); },
     layer: (id, on) => { on ? hidden.delete(id) : hidden.add(id); applyLayers(); },
     guides: (on) => { showGuides = on; draw(); },

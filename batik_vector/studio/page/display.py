@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import json
+from collections.abc import Callable
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
@@ -11,9 +12,12 @@ from nicegui import background_tasks, ui
 
 from batik_vector.errors import BatikError
 from batik_vector.studio.asking import View
+from batik_vector.studio.page.live import Live
 from batik_vector.studio.page.parts import group, icon_button, say, text, toggled, word_button
+from batik_vector.studio.page.slide import Slide
 
 if TYPE_CHECKING:
+    from batik_vector.studio.drafts import Draft
     from batik_vector.studio.page.session import Session
     from batik_vector.studio.pictures import Picture
 
@@ -27,6 +31,8 @@ VIEWS = {
 }
 REPEATS = {"tile": (1, 1), "three": (3, 3), "field": (4, 4)}
 """Tiles across and up of views in which seams can be shown."""
+FOLLOWS = 0.15
+"""Seconds of work past which a picture is drawn coarser while a slider is dragged."""
 SLOW = 0.6
 """Seconds of work from which on it is told, with a way to stop it."""
 CALM = 0.7
@@ -36,11 +42,26 @@ CALM = 0.7
 class Display:
     """The middle of the page."""
 
-    def __init__(self, session: Session) -> None:
+    def __init__(self, session: Session, told: Callable[[], None]) -> None:
+        """Draw it.
+
+        Args:
+            session: whose draft it shows.
+            told: called when other faults have been found than before.
+        """
         self.session = session
         self.client = ui.context.client
         self.view = "tile"
+        self.live = session.tabs[self.client.id] = Live(self._slid)
+        self.client.on_delete(lambda: session.tabs.pop(self.client.id, None))
+        self._told = told
         self._asked = 0
+        self._stage = ""
+        self._wanted: tuple[Draft, View, int] | None = None
+        self._slow = False
+        self._stem = ""
+        self._turned = False
+        self._certified: Draft | None = None
         self._on = {"lines": False, "guides": False, "pins": True}
         self._inks: tuple[tuple[str, str], ...] = ()
         self._hidden: set[str] = set()
@@ -49,9 +70,7 @@ class Display:
             with group("tools").props('role=toolbar aria-label="Display"'):
                 self._tools()
             with group("stage-host"):
-                self.stage = group("display").on(
-                    "studio-zoom", self._zoomed, js_handler="(e) => emit(e.detail)", throttle=0.1
-                )
+                self.stage = group("display")
                 self.faults = group("faults").props("role=alert")
                 with group("busy").props("role=status") as self.busy:
                     self.stage_words = text("", "small")
@@ -78,13 +97,13 @@ class Display:
             pass
 
     def _status(self) -> None:
-        self.size = text("")
-        self.counted = text("", "extra")
-        self.seconds = text("", "extra")
-        self.verdict = text("")
+        text("", "said-size")
+        text("", "extra said-counted")
+        text("", "extra said-seconds")
+        text("", "said-verdict").props("role=status")
         group("space")
         icon_button("remove", "Zoom out", lambda: self._run("studio.zoom(0.8)"))
-        self.zoom = text("100%", "zoom")
+        text("", "zoom")
         icon_button("add", "Zoom in", lambda: self._run("studio.zoom(1.25)"))
         icon_button("fit_screen", "Fit the window", lambda: self._run("studio.fit()"))
         word_button("1:1", lambda: self._run("studio.actual()")).props('aria-label="True size"')
@@ -100,16 +119,32 @@ class Display:
 
     def look(self, view: str) -> None:
         """Look at the draft in another way."""
-        self.view = view
+        self.view, self._turned = view, False
         self._mark_view()
         self.refresh()
+
+    def _begin_with(self) -> None:
+        """Look at what is opened as a cloth where it has a border, or no tile at all."""
+        draft = self.session.draft
+        if draft.stem == self._stem or draft.faults:
+            return
+        self._stem = draft.stem
+        cloth = draft.recipe.tile is None or bool(draft.recipe.border)
+        if cloth and self.view == "tile":
+            self.view, self._turned = "yardage", True
+        elif not cloth and self._turned:
+            self.view, self._turned = "tile", False
+        self._mark_view()
 
     def _mark_view(self) -> None:
         for name, button in self.views.items():
             toggled(button, name == self.view)
 
-    def _zoomed(self, event: Any) -> None:
-        say(self.zoom, f"{event.args * 100:.0f}%")
+    def _slid(self, number: int, value: float, let_go: bool) -> None:
+        slider = self.client.elements.get(number)
+        if isinstance(slider, Slide):
+            with self.client.content:
+                slider.told(value, let_go)
 
     def _run(self, code: str) -> None:
         if not self.client.is_deleted:
@@ -119,16 +154,19 @@ class Display:
 
     def refresh(self) -> None:
         """Ask for a picture of what is open now; of several wishes the newest counts."""
-        background_tasks.create(self._ask())
+        self._begin_with()
+        rough = self.session.held and self._slow
+        draft, view = self.session.draft, View(self.view, rough=rough)
+        if self._wanted != (draft, view, self.session.saves):
+            self._wanted = draft, view, self.session.saves
+            background_tasks.create(self._ask(draft, view))
 
-    async def _ask(self) -> None:
+    async def _ask(self, draft: Draft, view: View) -> None:
         self._asked += 1
         mine = self._asked
         alarm = asyncio.get_running_loop().call_later(SLOW, lambda: self._tell_busy(mine))
         try:
-            picture = await self.session.images.ask(
-                self.session.draft, View(self.view), lane=self.client.id, tell=self._tell_stage
-            )
+            picture = await self.session.images.ask(draft, view, lane=self.client.id, tell=self._tell_stage)
         finally:
             alarm.cancel()
         if mine == self._asked:
@@ -141,9 +179,13 @@ class Display:
             self._show_busy(True)
 
     def _tell_stage(self, stage: str) -> None:
-        say(self.stage_words, stage)
+        self._stage = stage
+        if self.busy.visible:
+            say(self.stage_words, stage)
 
     def _show_busy(self, on: bool) -> None:
+        if on:
+            say(self.stage_words, self._stage)
         if self.busy.visible != on:
             self.busy.set_visibility(on)
 
@@ -151,18 +193,25 @@ class Display:
         self.session.images.cancel(self.client.id)
 
     def _show(self, picture: Picture) -> None:
+        before = self.session.faults
         self.session.compiled(picture)
+        if self.session.faults != before:
+            self._told()
         self._tell_faults(picture)
         if not picture.svg:
             return
-        number = self.session.keep(picture.svg)
+        self._slow = picture.seconds > FOLLOWS
         facts = picture.facts
-        meta = {"guides": self._guides(facts)}
-        self._run(f"studio.show('/studio/picture/{number}', {number}, {json.dumps(meta)})")
         width, height = facts["cell_mm"]
-        say(self.size, f"{width:g} × {height:g} mm")
-        say(self.counted, f"{facts.get('vertices', 0):,} vertices")
-        say(self.seconds, f"drawn in {picture.seconds * 1000:.0f} ms")
+        # Told by the picture's own way, for the page's elements would keep the browser busy.
+        words = {
+            "size": f"{width:g} × {height:g} mm",
+            "counted": f"{facts.get('vertices', 0):,} vertices",
+            "seconds": f"drawn in {picture.seconds * 1000:.0f} ms",
+        }
+        certified = picture.draft is self._certified
+        head = {"guides": self._guides(facts), "words": words, "certified": certified}
+        self.live.put(head, picture.svg)
         self._list_layers(facts)
         if self._verdict is not None:
             self._verdict.cancel()
@@ -170,7 +219,8 @@ class Display:
 
     def _tell_faults(self, picture: Picture) -> None:
         told = picture.faults
-        self.faults.set_visibility(bool(told))
+        if self.faults.visible != bool(told):
+            self.faults.set_visibility(bool(told))
         if not told:
             return
         self.faults.clear()
@@ -240,10 +290,11 @@ class Display:
         )
         if found is None or not found.verdict or found.draft is not self.session.draft:
             return
+        self._certified = picture.draft
         faults = found.verdict["faults"]
         passed = found.verdict["passed"]
-        self.verdict.classes(replace="good" if passed else "bad")
-        say(self.verdict, "Seam certificate passed" if passed else f"{len(faults)} faults in the certificate")
+        words = "Seam certificate passed" if passed else f"{len(faults)} faults in the certificate"
+        self._run(f"studio.verdict({json.dumps(words)}, {json.dumps(passed)})")
         height = found.facts["cell_mm"][1]
         pins = [
             {"x": each["where_mm"][0], "y": height - each["where_mm"][1], "text": each["words"]}

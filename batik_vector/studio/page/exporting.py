@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 USUAL = ("svg", "pdf")
 """What is ticked where a recipe asks for no files."""
 NONE = "none"
+LABELS = {"gcode": "G-code"}
+"""What formats are called whose names are not their letters."""
 
 
 def export(session: Session) -> None:
@@ -41,7 +43,9 @@ class Exporting:
             self.verdict = text("Measuring the tile for the seam certificate …", "quiet")
         with group("formats"):
             self.ticks = {
-                name: ui.checkbox(name.upper(), value=name in (asked or USUAL)).props("dense")
+                name: ui.checkbox(LABELS.get(name, name.upper()), value=name in (asked or USUAL)).props(
+                    "dense"
+                )
                 for name in FORMATS
             }
             for name, tick in self.ticks.items():

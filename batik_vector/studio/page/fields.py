@@ -2,42 +2,22 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 import tomllib
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from nicegui import ui
-from nicegui.elements.mixins.value_element import ValueElement
 
 from batik_vector.studio.offers import COLOURS
 from batik_vector.studio.page.parts import group, icon_button, say, text, told
+from batik_vector.studio.page.slide import Slide
 from batik_vector.studio.text.spelling import spelled
 
 if TYPE_CHECKING:
     from batik_vector.studio.page.session import Session
     from batik_vector.studio.parameters import Control
-
-OFTEN = 0.02
-"""Seconds between two values of a slider that is dragged."""
-DRAGGED = 0.4
-"""Seconds after a value during which its slider is not set from here: it is in somebody's hand."""
-
-
-class Slide(ValueElement[float]):
-    """A slider that moves in the browser at once, and tells its values as often as pictures can follow."""
-
-    LOOPBACK = False
-
-    def __init__(self, low: float, high: float, step: float, value: float) -> None:
-        super().__init__(tag="q-slider", value=value, throttle=OFTEN)
-        self.ends(low, high, step)
-
-    def ends(self, low: float, high: float, step: float) -> None:
-        """Set the ends, and the step between two values."""
-        for name, value in (("min", low), ("max", high), ("step", step)):
-            if self._props.get(name) != value:
-                self._props[name] = value
 
 
 def shown(value: Any) -> str:
@@ -48,6 +28,9 @@ def shown(value: Any) -> str:
         return "true" if value else "false"
     if isinstance(value, int | float):
         return f"{value:.6g}" if math.isfinite(value) else ""
+    if isinstance(value, list) and value and all(isinstance(each, str) for each in value):
+        words = ", ".join(value)
+        return words if read(words) == value else spelled(value)
     return value if isinstance(value, str) else spelled(value)
 
 
@@ -56,10 +39,11 @@ def read(words: str) -> Any:
     words = words.strip()
     if not words:
         return None
-    try:
-        return tomllib.loads(f"x = {words}")["x"]
-    except tomllib.TOMLDecodeError:
-        return [each.strip() for each in words.strip("[]").split(",")]
+    for spelling in (words, f"[{words}]"):
+        with contextlib.suppress(tomllib.TOMLDecodeError):
+            return tomllib.loads(f"x = {spelling}")["x"]
+    bare = words[1:-1] if words[0] + words[-1] == "[]" and words.count("[") == 1 else words
+    return [each.strip().strip("\"'") for each in bare.split(",")]
 
 
 class Row:
@@ -69,7 +53,8 @@ class Row:
         self.session, self.control = session, control
         self._setting = False
         sliding = control.span is not None
-        with group("control" if sliding else "control wide").props(f'data-path="{control.path}"') as self.box:
+        shape = "control" if sliding else "control wide long" if control.kind == "list" else "control wide"
+        with group(shape).props(f'data-path="{control.path}"') as self.box:
             self._name()
             self.slider = self._slide() if sliding else None
             self.field = self._field()
@@ -104,18 +89,19 @@ class Row:
         told = f"; {shown(bounds[0])} to {shown(bounds[1])}" if None not in bounds else ""
         return f"{self.control.help}{told} {self.control.unit}".strip()
 
+    def _spoken(self) -> str:
+        return f"{self.words} in mm" if self.control.unit == "mm" else self.words
+
     def _labelled(self, element: ui.element) -> ui.element:
-        unit = f" in {self.control.unit}" if self.control.unit == "mm" else ""
-        element._props["aria-label"] = f"{self.words}{unit}"
+        element._props["aria-label"] = self._spoken()
         return element
 
     def _slide(self) -> Slide:
         low, high = self.control.span or (0, 1)
-        made = Slide(low, high, self.control.step or 0.01, self._within(low, high))
-        made.props("dense").on("change", lambda: self.session.settle())
-        made.on_value_change(lambda event: self._slid(event.value))
-        self._labelled(made)
-        return made
+        whole = self.control.kind == "whole"
+        ends = low, high, self.control.step or 0.01
+        said = shown(self.control.value)
+        return Slide(ends, self._within(low, high), said, whole, self._spoken(), self._slid)
 
     def _within(self, low: float, high: float) -> float:
         value = self.control.value
@@ -176,13 +162,10 @@ class Row:
 
     # What is done to it.
 
-    def _slid(self, value: float) -> None:
-        if self._setting or value is None:
-            return
+    def _slid(self, value: float, let_go: bool) -> None:
         value = round(value) if self.control.kind == "whole" else float(f"{value:.6g}")
-        self._set(value, merge=self.control.path)
-        if isinstance(self.field, ui.input):
-            self._quietly(lambda: setattr(self.field, "value", shown(value)))
+        with told():
+            self.session.slide(self.control.path, value, let_go)
 
     def _typed(self) -> None:
         assert isinstance(self.field, ui.input)
@@ -242,9 +225,7 @@ class Row:
         control = self.control
         if self.slider is not None and control.span is not None:
             self.slider.ends(*control.span, control.step or 0.01)
-            within = self._within(*control.span)
-            if self.slider.value != within:
-                self.slider.set_value(within)
+            self.slider.set_value(self._within(*control.span), shown(control.value))
         field: Any = self.field
         value: Any = self._chosen() if isinstance(field, ui.select) else shown(control.value)
         if isinstance(field, ui.select):

@@ -11,7 +11,7 @@ from batik_vector.studio.page.commands import Commands
 from batik_vector.studio.page.controls import Controls
 from batik_vector.studio.page.display import Display
 from batik_vector.studio.page.library import LibraryPanel, VersionsPanel
-from batik_vector.studio.page.parts import complain, group, icon_button, main_button, say, text, told
+from batik_vector.studio.page.parts import Soon, complain, group, icon_button, main_button, say, text, told
 from batik_vector.studio.page.recipe_text import RecipeText
 
 if TYPE_CHECKING:
@@ -20,7 +20,11 @@ if TYPE_CHECKING:
 HEAD = (
     '<link rel="stylesheet" href="/studio/static/studio.css">'
     '<script src="/studio/static/display.js"></script>'
+    '<script src="/studio/static/live.js"></script>'
 )
+SOON, CALM = 0.03, 0.35
+"""Seconds after a change until words and panels follow the picture, and after one of a slider that is held:
+to tell a page of elements anything keeps its browser busy for as long as a picture takes."""
 MARK = (
     '<svg viewBox="0 0 32 32" aria-hidden="true"><g fill="none" stroke="currentColor" stroke-width="2.4">'
     '<ellipse cx="16" cy="7.6" rx="4" ry="6.4"/><ellipse cx="16" cy="24.4" rx="4" ry="6.4"/>'
@@ -52,18 +56,20 @@ class Page:
                 self._bar()
             with group("side left", "aside").props('aria-label="Library"'):
                 self._left()
-            self.display = Display(session)
+            self.display = Display(session, lambda: self._soon(SOON))
             with group("side right", "aside").props('aria-label="Parameters"'):
                 self._right()
         self.commands.keys()
         client = ui.context.client
+        self._soon = Soon(self._show_rest)
         forget = session.listen(self.refresh)
         client.on_delete(forget)
         client.on_connect(self._look_at_screen)
         ui.on("studio-pasted", self._pasted)
         ui.on("studio-refused", lambda event: complain(str(event.args)))
         ui.on("studio-dropped", lambda event: ui.notify(str(event.args), type="positive"))
-        self.refresh()
+        self.display.refresh()
+        self._show_rest()
 
     def _bar(self) -> None:
         icon_button("menu", "Library", self._open_left).classes("narrow")
@@ -101,14 +107,21 @@ class Page:
         tabs.on_value_change(lambda event: self.recipe.shown(event.value == "recipe"))
 
     def refresh(self) -> None:
-        """Show what is open now."""
+        """Show what is open now: the picture first."""
+        self.display.refresh()
+        self._soon(CALM if self.session.held else SOON)
+
+    def _show_rest(self) -> None:
+        if self.session.held:
+            # A hand that rests sees what it has.
+            self.session.held = False
+            self.display.refresh()
         say(self.title, self.session.title)
         say(self.state, self.session.state)
         self.commands.refresh()
         self.controls.refresh()
         self.recipe.refresh()
         self.versions.refresh()
-        self.display.refresh()
 
     def _pasted(self, event: Any) -> None:
         with told():

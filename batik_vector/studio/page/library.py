@@ -22,12 +22,19 @@ CONDITION = ("<", ">", "=", "..")
 SHOWN_AT_ONCE = 60
 
 
+class Thumb(ui.element, component="thumb.js"):
+    """The small picture of a version, asked for once it is seen."""
+
+    def __init__(self, reference: str) -> None:
+        super().__init__()
+        self._props["address"] = f"/studio/thumbnail?name={quote(reference)}"
+
+
 def card(name: str, label: str, said: str, action: Callable[..., Any], version: int) -> ui.element:
     """Return a pattern's picture with its name below, as a button."""
     made = ui.element("button").classes("pattern").props(f'type=button title="{_attribute(said)}"')
     with made:
-        address = f"/studio/thumbnail?name={quote(f'{name}@{version}')}"
-        ui.element("img").props(f'src="{address}" alt="" loading=lazy decoding=async')
+        Thumb(f"{name}@{version}")
         text(label, "name")
     return made.on("click", action)
 
@@ -80,8 +87,8 @@ class LibraryPanel:
         if mine != self._asked:
             return
         say(self.said, "" if found else "Nothing found.")
-        # Own patterns first: they are what one comes back for.
-        found.sort(key=lambda hit: hit.included)
+        # Own patterns first: they are what one comes back for. Then what one begins with.
+        found.sort(key=lambda hit: (hit.included, hit.included and not hit.name.startswith("starter/")))
         self.shelf.clear()
         with self.shelf:
             for hit in found[:SHOWN_AT_ONCE]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import inspect
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -88,3 +89,26 @@ def toggled(button: ui.button, on: bool) -> None:
     (button.classes(add="on") if on else button.classes(remove="on")).props(
         f"aria-pressed={'true' if on else 'false'}"
     )
+
+
+class Soon:
+    """Something that is done once nobody has asked for it for a while."""
+
+    def __init__(self, action: Callable[[], Any]) -> None:
+        self._action, self._client = action, ui.context.client
+        self._alarm: asyncio.TimerHandle | None = None
+
+    def __call__(self, seconds: float) -> None:
+        """Do it after so many seconds, unless it is asked for anew before."""
+        self.cancel()
+        self._alarm = asyncio.get_running_loop().call_later(seconds, self._do)
+
+    def cancel(self) -> None:
+        """Do it no more."""
+        if self._alarm is not None:
+            self._alarm.cancel()
+
+    def _do(self) -> None:
+        if not self._client.is_deleted:
+            with self._client.content:
+                self._action()

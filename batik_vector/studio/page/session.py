@@ -19,6 +19,7 @@ from batik_vector.studio.shelf import Shelf
 
 if TYPE_CHECKING:
     from batik_vector.studio.offers import Offer
+    from batik_vector.studio.page.live import Live
 
 KEPT = 32
 """Pictures that browsers can still ask for."""
@@ -39,14 +40,22 @@ class Session:
         self.desk = desk
         self.library = library
         self.aside = Aside()
-        self.shelf = Shelf(self.aside, library)
+        # Small pictures never keep the large one waiting.
+        self._sketches = Aside(yields=True)
+        self.shelf = Shelf(self._sketches, library)
         self.images = Pictures()
+        self.tabs: dict[str, Live] = {}
+        """The short ways to the tabs that are open, by the names of their clients."""
         self.pictures: dict[int, bytes] = {}
         self.files: dict[int, tuple[str, bytes]] = {}
         self._number = 0
         self._seed = 0
         self._settling: asyncio.TimerHandle | None = None
         self._compiling: tuple[Draft, tuple[Fault, ...]] | None = None
+        self.saves = 0
+        """How often a file was saved that is followed."""
+        self.held = False
+        """Whether a slider is in somebody's hand, and another value is about to come."""
         self._listeners: list[Callable[[], None]] = []
         self._library_listeners: list[Callable[[], None]] = []
 
@@ -151,6 +160,21 @@ class Session:
         label = f"{path.rpartition('.')[2]} {'reset' if value is None else 'set'}"
         self.change(self.draft.with_value(path, value), label, merge)
 
+    def slide(self, path: str, value: float, let_go: bool) -> None:
+        """Set a value as a slider moves: all values until shortly after it is let go are one step.
+
+        Raises:
+            BatikError: where it cannot be set; nothing is changed then.
+        """
+        self.held = not let_go
+        before = self.draft
+        self.set_value(path, value, merge=path)
+        if let_go:
+            self.settle()
+            if before == self.draft:
+                # What waited for the hand is shown now.
+                self._tell()
+
     def lock(self, path: str, locked: bool) -> None:
         """Lock a value, or set it free."""
         self.change(self.draft.locking(path, locked), f"{path} {'locked' if locked else 'set free'}")
@@ -242,6 +266,14 @@ class Session:
             self._tell()
         self.alter(f"{draft.title} opened", lambda _: draft)
 
+    def follow(self, draft: Draft) -> None:
+        """Go on with what a file says by now; what was changed here since can be had back."""
+        # What it names may have changed, and its own text not.
+        self.saves += 1
+        if draft.text == self.draft.text:
+            self._tell()
+        self.alter("file saved", lambda now: replace(draft, locked=now.locked))
+
     def paste(self, text: str) -> None:
         """Put in what is pasted: a whole recipe takes the draft's place, motifs and inks join it.
 
@@ -308,11 +340,16 @@ class Session:
         self.files = dict(list(self.files.items())[-3:]) | {self._number: (name, data)}
         return self._number
 
+    def end_asides(self) -> None:
+        """End what reads files and draws small pictures; whoever waits for any is told."""
+        self.aside.end()
+        self._sketches.end()
+
     def close(self) -> None:
         """End what works beside the studio; what is open stays kept."""
         self._keep_open()
         self.images.close()
-        self.aside.close()
+        self.end_asides()
         self.desk.close()
 
 

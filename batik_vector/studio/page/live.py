@@ -1,0 +1,93 @@
+"""The short way between a slider and the picture: a WebSocket of our own, beside that of the page's elements.
+
+What a page made of elements is told goes through its whole tree, which takes longer than a picture. So a
+slider that is dragged tells its values here, and pictures come back here: of several that wait for a browser
+the newest is sent, and the next one once that is shown.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import json
+import math
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any
+
+from starlette.routing import WebSocketRoute
+from starlette.websockets import WebSocket, WebSocketDisconnect
+
+if TYPE_CHECKING:
+    from fastapi import FastAPI
+
+PATIENCE = 2.0
+"""Seconds to wait for a browser to show a picture before it is sent the next one: a hidden tab shows none."""
+LONGEST = 400
+"""Characters of what a page says here."""
+
+Slid = Callable[[int, float, bool], None]
+"""Told the number of a slider, its value, and whether it was let go."""
+
+
+class Live:
+    """The server's end of one tab."""
+
+    def __init__(self, slid: Slid) -> None:
+        self._slid = slid
+        self._frame = b""
+        self._fresh = asyncio.Event()
+        self._shown = asyncio.Event()
+
+    def put(self, head: Mapping[str, Any], svg: bytes) -> None:
+        """Send a picture as soon as the browser takes one; one that still waits is dropped."""
+        told = json.dumps(head).encode()
+        self._frame = len(told).to_bytes(4, "big") + told + svg
+        self._fresh.set()
+
+    async def serve(self, socket: WebSocket) -> None:
+        """Serve a browser until it goes; what it missed is sent at once."""
+        await socket.accept()
+        if self._frame:
+            self._fresh.set()
+        self._shown.set()
+        sending = asyncio.create_task(self._send(socket))
+        try:
+            with contextlib.suppress(WebSocketDisconnect):
+                while True:
+                    self._hear(await socket.receive_text())
+        finally:
+            sending.cancel()
+
+    async def _send(self, socket: WebSocket) -> None:
+        while True:
+            await self._fresh.wait()
+            with contextlib.suppress(TimeoutError):
+                await asyncio.wait_for(self._shown.wait(), PATIENCE)
+            self._fresh.clear()
+            self._shown.clear()
+            await socket.send_bytes(self._frame)
+
+    def _hear(self, words: str) -> None:
+        try:
+            said = json.loads(words) if len(words) <= LONGEST else None
+        except ValueError:
+            said = None
+        if said == "shown":
+            self._shown.set()
+        elif isinstance(said, list) and len(said) == 3:
+            number, value, let_go = said
+            if isinstance(number, int) and isinstance(value, int | float) and math.isfinite(value):
+                self._slid(number, value, bool(let_go))
+
+
+def add_route(app: FastAPI, tabs: Mapping[str, Live]) -> None:
+    """Add the address of the short way; tabs are known by the names of their clients."""
+
+    async def live(socket: WebSocket) -> None:
+        tab = tabs.get(socket.query_params.get("tab", ""))
+        if tab is None:
+            await socket.close(4404)
+        else:
+            await tab.serve(socket)
+
+    app.router.routes.append(WebSocketRoute("/studio/live", live))
