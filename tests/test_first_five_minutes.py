@@ -42,7 +42,7 @@ def call(line: str) -> str:
     words = shlex.split(line, comments=True)
     result = runner().invoke(cli, words[1:])
     assert result.exit_code == (2 if "# fails" in line else 0), (line, result.stderr)
-    return result.stderr
+    return result.stdout + result.stderr
 
 
 def test_the_first_five_minutes_go_as_the_page_says(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,4 +1,4 @@
-"""The command ``batik-vector``. People read stderr; stdout holds what machines read.
+"""The command ``batik-vector``. What was asked for is on stdout; stderr tells people how it went.
 
 What is heavy is imported where it is used, so that ``--help`` answers at once.
 """
@@ -11,21 +11,17 @@ import signal
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
 from batik_vector._version import __version__
+from batik_vector.command.compile import compile_command
 from batik_vector.command.drawings import export_motif_command, import_command
 from batik_vector.command.library import library_command
-from batik_vector.command.made_files import called, files_options, tell_files
-from batik_vector.command.options import (
-    Finite,
-    jobs_option,
-    json_option,
-    recipes_argument,
-    set_option,
-)
+from batik_vector.command.made_files import called
+from batik_vector.command.manual import exit_codes_told, man_command
+from batik_vector.command.options import Finite, json_option, set_option
 from batik_vector.command.stopping import EXITS, end_on_sigterm, listen
 from batik_vector.command.studio import studio_command
 from batik_vector.command.sweeps import random_command, sweep_command
@@ -33,9 +29,6 @@ from batik_vector.command.telling import collecting, complain, faults_told, repo
 from batik_vector.command.watch import watch_command
 from batik_vector.command.worksheets import worksheet_command
 from batik_vector.errors import BatikError, unknown_name
-
-if TYPE_CHECKING:
-    from batik_vector.making.jobs import Job
 
 KINDS = (
     "bird",
@@ -111,70 +104,6 @@ def cli(library: str | None) -> None:
         os.environ["BATIK_LIBRARY"] = library
 
 
-@cli.command("compile")
-@recipes_argument
-@files_options
-@set_option
-@jobs_option
-@json_option
-def compile_command(
-    recipes: Sequence[str],
-    folder: str,
-    formats: Sequence[str],
-    processes: Sequence[str],
-    machine: str | None,
-    pages: str | None,
-    margin: str | None,
-    dpi: float | None,
-    overrides: Sequence[str],
-    jobs: int,
-    as_json: bool,
-) -> None:
-    """Compile recipes to files.
-
-    A RECIPE is a TOML file, an SVG, PDF, DXF, HPGL, G-code, PNG or TIFF compiled from one, or
-    library:NAME; "*" stands for any name. The files of a recipe are written all or not at all, as
-    DIR/NAME.SUFFIX, but for PNGs where the system lacks what draws them.
-    """
-    from pathlib import Path
-
-    from batik_vector.making.jobs import matching, planned, read_jobs, ready
-
-    collecting()
-    with reported(as_json) as report:
-        keys = called(processes, machine, pages, margin, dpi)
-        work, lacking = ready(planned(read_jobs(matching(recipes), overrides), Path(folder), formats, keys))
-        for done in _made(work, jobs, as_json, report):
-            report["recipes"].append(done)
-            tell_files(done)
-        for error in lacking:
-            # What can be made is made, and this is the last that people read.
-            with faults_told(report):
-                raise error
-
-
-def _made(work: Sequence[Job], workers: int, quiet: bool, report: dict[str, Any]) -> Iterator[dict[str, Any]]:
-    """Make the files of all jobs, in their order or on several cores; yield reports as they are done."""
-    from batik_vector.making.jobs import run, run_quietly
-
-    if min(workers, len(work)) <= 1:
-        for job, tell in _progress(work, quiet):
-            with faults_told(report):
-                yield run(job, tell)
-        return
-    from tqdm import tqdm
-
-    from batik_vector.making.pool import outcomes
-
-    with tqdm(total=len(work), unit="recipe", delay=1, disable=quiet or None, leave=False) as bar:
-        for outcome in outcomes(run_quietly, work, min(workers, len(work))):
-            bar.update()
-            if outcome.result is not None:
-                yield outcome.result
-            with faults_told(report):
-                outcome.check()
-
-
 def _limit(name: str, metavar: str, says: str, option: str = "") -> Callable[[Any], Any]:
     """Return an option that sets one of the certificate's limits."""
     return click.option(f"--{option or name}", name, type=Finite(min=0), metavar=metavar, help=says)
@@ -239,18 +168,19 @@ def check_command(
                     each = check_source(source, overrides, wishes, tell)
                     found.append(each)
                     report["recipes"].append(each.facts)
-                    _tell_facts(each.facts)
+                    _tell_facts(each.facts, as_json)
                     report["exit"] = max(report["exit"], 0 if each.passed else 1)
         if len(sources) > 1:
-            click.echo("\n".join(table(sources, report["recipes"])), err=True)
+            click.echo("\n".join(table(sources, report["recipes"])), err=as_json)
         for path in write_pointers(found, places) if places else ():
             click.echo(f'{path}  shows the faults in layer "check"', err=True)
 
 
-def _tell_facts(facts: dict[str, Any]) -> None:
+def _tell_facts(facts: dict[str, Any], aside: bool) -> None:
+    """Print a report for people, beside the one for machines where there is one."""
     from batik_vector.command.reports import told
 
-    click.echo("\n".join(told(facts)), err=True)
+    click.echo("\n".join(told(facts)), err=aside)
 
 
 @cli.command("analyse", short_help="Measure patterns: petals, symmetry, dimension.")
@@ -273,30 +203,10 @@ def analyse_command(sources: Sequence[str], overrides: Sequence[str], as_json: b
             with faults_told(report):
                 facts = analyse_source(source, overrides, tell)
                 report["recipes"].append(facts)
-                click.echo("\n".join(told(facts)), err=True)
+                click.echo("\n".join(told(facts)), err=as_json)
                 report["exit"] = max(report["exit"], 0 if facts["judged"] else 1)
         if len(sources) > 1:
-            click.echo("\n".join(table(sources, report["recipes"])), err=True)
-
-
-def _progress(jobs: Sequence[Job], quiet: bool) -> Iterator[tuple[Job, Callable[[str], None]]]:
-    """Yield each job with a function that moves the bar: one step for a stage."""
-    if quiet or not sys.stderr.isatty():
-        yield from ((job, lambda stage: None) for job in jobs)
-        return
-    from tqdm import tqdm
-
-    steps = sum(len(job.recipe.place) + 1 + len(job.files) for job in jobs)
-    with tqdm(total=steps, delay=1, file=sys.stderr, leave=False) as bar:
-        for job in jobs:
-
-            def tell(stage: str) -> None:
-                bar.set_description(stage, refresh=False)
-                # A cloth also tells how far each of its inks has come.
-                if not stage.endswith("%"):
-                    bar.update()
-
-            yield job, tell
+            click.echo("\n".join(table(sources, report["recipes"])), err=as_json)
 
 
 def _kind_name(_ctx: click.Context, _param: click.Parameter, name: str | None) -> str | None:
@@ -310,6 +220,7 @@ def _kind_name(_ctx: click.Context, _param: click.Parameter, name: str | None) -
 @click.option(
     "--kind",
     callback=_kind_name,
+    shell_complete=lambda _ctx, _param, text: [name for name in KINDS if name.startswith(text)],
     metavar="KIND",
     help=f"What it begins as: {', '.join(KINDS)}.  [default: NAME where it is one, or {DEFAULT_KIND}]",
 )
@@ -335,6 +246,7 @@ def new_command(name: str | None, kind: str | None, path: str | None, force: boo
 
 
 for _command in (
+    compile_command,
     watch_command,
     worksheet_command,
     sweep_command,
@@ -343,6 +255,7 @@ for _command in (
     export_motif_command,
     library_command,
     studio_command,
+    man_command,
 ):
     cli.add_command(_command)
 
@@ -355,6 +268,9 @@ def schema_command() -> None:
     from batik_vector.recipe.schema import schema
 
     click.echo(json.dumps(schema(), indent=2))
+
+
+exit_codes_told(cli)
 
 
 @contextmanager

@@ -217,7 +217,7 @@ def _formats(words: str, folder: str) -> list[str]:
 def _zip(library: Library, names: Sequence[str], folder: Path, force: bool) -> dict[str, Any]:
     from batik_vector.export.files import write_all_whole
     from batik_vector.library.exchange import zipped
-    from batik_vector.making.jobs import make_folder
+    from batik_vector.making.destinations import make_folder
 
     wholes = {library.version(name).name: name for name in names}
     target = folder if folder.suffix.lower() == ".zip" else folder / "library.zip"
@@ -240,7 +240,7 @@ def _files(
     """Write the files of patterns, all or none."""
     from batik_vector.export.files import write_all_whole
     from batik_vector.library.exchange import file_name, written
-    from batik_vector.making.jobs import make_folder
+    from batik_vector.making.destinations import make_folder
 
     places: dict[Path, tuple[Any, str]] = {}
     for name in dict.fromkeys(names):

@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from batik_vector.command.options import FORMATS, Finite, format_names
+from batik_vector.command.options import FORMATS, Finite, format_names, formats_begun
+
+if TYPE_CHECKING:
+    from batik_vector.errors import BatikError
+    from batik_vector.making.destinations import Destination
+    from batik_vector.making.jobs import Job
 
 _OPTIONS = (
     click.option(
@@ -18,6 +24,7 @@ _OPTIONS = (
         "formats",
         multiple=True,
         callback=format_names,
+        shell_complete=formats_begun,
         metavar="FORMAT,…",
         help=f"{', '.join(FORMATS)}.  [default: what the recipe asks for, or svg]",
     ),
@@ -40,6 +47,11 @@ _OPTIONS = (
         metavar="LENGTH",
         help='Room around what HPGL draws, such as "4 mm": for what is cut beside it.',
     ),
+    click.option(
+        "--curves",
+        type=click.Choice(["polyline", "bezier"]),
+        help="SVG and PDF of vertices as they are, or of fitted Béziers with far fewer nodes.",
+    ),
 )
 
 
@@ -56,6 +68,7 @@ def called(
     pages: str | None = None,
     margin: str | None = None,
     dpi: float | None = None,
+    curves: str | None = None,
 ) -> dict[str, Any]:
     """Return the keys of outputs that a call sets for all files."""
     keys: dict[str, Any] = {}
@@ -71,6 +84,10 @@ def called(
         from batik_vector.export.options import Pages
 
         keys["pages"] = Pages(pages)
+    if curves is not None:
+        from batik_vector.export.options import Curves
+
+        keys["curves"] = Curves(curves)
     if margin is not None:
         keys["margin"] = _length(margin)
     if dpi is not None:
@@ -90,16 +107,58 @@ def _length(text: str) -> float:
         raise RecipeError([Fault(str(error), source="--margin")]) from None
 
 
+STDOUT = "-"
+"""Names standard output where a command takes a folder."""
+BINARY = ("pdf", "png", "tiff")
+
+
+def destination(folder: str, formats: Sequence[str], dry_run: bool, as_json: bool) -> Destination:
+    """Return where files go, by what a call says of it.
+
+    Raises:
+        RecipeError: where standard output is to hold what it cannot.
+    """
+    from batik_vector.making.destinations import into_folders, nowhere, onto
+
+    if folder != STDOUT:
+        return nowhere if dry_run else into_folders
+    if as_json:
+        raise _of_stdout("holds the file, and no report beside it: leave out --json")
+    if dry_run:
+        return nowhere
+    if sys.stdout.isatty() and any(name in BINARY for name in formats):
+        raise _of_stdout("is a terminal, which shows no pictures: send it on with > or |")
+    return onto(sys.stdout.buffer)
+
+
+def check_alone(jobs: Sequence[Job]) -> None:
+    """Raise unless jobs make one file all together, which standard output holds.
+
+    Raises:
+        RecipeError: with how many there are.
+    """
+    count = sum(len(job.files) for job in jobs)
+    if count != 1:
+        raise _of_stdout(f"holds one file, this makes {count}: expected one recipe and one format (-f)")
+
+
+def _of_stdout(words: str) -> BatikError:
+    from batik_vector.errors import Fault, RecipeError
+
+    return RecipeError([Fault(words, source="-o -")])
+
+
 def tell_files(done: dict[str, Any]) -> None:
     """Tell people of the files of a recipe: their sizes, what processes did, warnings, and the time."""
     from batik_vector.command.process_reports import told_of
     from batik_vector.command.reports import made_of
 
     before: list[str] = []
+    aside = "  not written" if done.get("written") is False else ""
     for file in done["files"]:
         width, height = (f"{side:g}" for side in file["size_mm"])
         size = _bytes(file["bytes"])
-        click.echo(f"{file['path']}  {size}  {width} × {height} mm  {file['seconds']:.2f} s", err=True)
+        click.echo(f"{file['path']}  {size}  {width} × {height} mm  {file['seconds']:.2f} s{aside}", err=True)
         # What went through the same takes the same: that is told once.
         lines = [f"  {words}" for words in told_of(file.get("process", {}))]
         for words in lines if lines != before else ():

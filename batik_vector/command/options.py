@@ -36,6 +36,12 @@ def format_names(_ctx: click.Context, _param: click.Parameter, texts: Sequence[s
     return names
 
 
+def formats_begun(_ctx: click.Context, _param: click.Parameter, text: str) -> list[str]:
+    """Return what shells offer for the names of formats, the last of several included."""
+    before, comma, begun = text.rpartition(",")
+    return [f"{before}{comma}{name}" for name in FORMATS if name.startswith(begun.lower())]
+
+
 def workers_of(_ctx: click.Context, _param: click.Parameter, number: int) -> int:
     """Return how many processes work: 0 stands for one on each core."""
     if number:

@@ -34,7 +34,7 @@ def write_starter(starter: Path, name: str | None, path: str | None, force: bool
     Raises:
         ExportError: where the file cannot be written, or is there already, or its name is a path.
     """
-    if path is None and name is not None and any(each in name for each in (os.sep, os.altsep) if each):
+    if path is None and name is not None and _is_path(name):
         raise ExportError(f'"{name[:60]}" is a path, expected a name: -o FILE says where the file goes')
     text = starter.read_text("utf-8")
     if name is not None:
@@ -54,6 +54,11 @@ def write_starter(starter: Path, name: str | None, path: str | None, force: bool
     except OSError as error:
         raise ExportError(f"{target} could not be written: {error.strerror}") from error
     return target
+
+
+def _is_path(name: str) -> bool:
+    """Whether a name is a path: what would be left of it was not meant."""
+    return any(each in name for each in (os.sep, os.altsep) if each) or name in (".", "..", "~")
 
 
 def _file_name(name: str) -> str:

@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from batik_vector.command.made_files import called, files_options, tell_files
+from batik_vector.command.made_files import STDOUT, called, files_options, tell_files
 from batik_vector.command.options import set_option
 from batik_vector.command.telling import collecting, faults_told
 
@@ -27,6 +27,7 @@ def watch_command(
     pages: str | None,
     margin: str | None,
     dpi: float | None,
+    curves: str | None,
     overrides: Sequence[str],
     page: bool,
     as_json: bool,
@@ -39,8 +40,10 @@ def watch_command(
     from batik_vector.studio.watching import Watched
 
     collecting()
+    if folder == STDOUT:
+        raise click.BadParameter("a file that is written again and again needs a folder", param_hint="-o")
     watched = Watched(recipe)
-    keys = called(processes, machine, pages, margin, dpi)
+    keys = called(processes, machine, pages, margin, dpi, curves)
 
     def work() -> None:
         _compiled(recipe, folder, formats, keys, overrides, as_json)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import glob
 import os
 import time
@@ -23,8 +22,9 @@ from batik_vector.errors import (
     SeamError,
     UnsupportedByFormatError,
 )
-from batik_vector.export import FORMATS, write_all_whole
+from batik_vector.export import FORMATS
 from batik_vector.machines.profile import LANGUAGES
+from batik_vector.making.destinations import Destination, check_folder, into_folders
 from batik_vector.making.facts import facts_of, page_warnings, warnings
 from batik_vector.making.pages import (
     Latest,
@@ -38,10 +38,10 @@ from batik_vector.making.pages import (
     renumbered,
     size_of,
 )
-from batik_vector.recipe.loading import load_recipe, located
+from batik_vector.recipe.loading import load_recipe, located, read_recipe
 from batik_vector.recipe.model import OutputSpec, Recipe
 from batik_vector.recipe.outputs import OUTPUTS, Piece
-from batik_vector.recipe.reading.sources import is_compiled, stem_of
+from batik_vector.recipe.reading.sources import STDIN, is_compiled, read_stdin, stem_of
 from batik_vector.values import frozen
 
 if TYPE_CHECKING:
@@ -60,16 +60,23 @@ class Job:
 
 
 def read_jobs(sources: Sequence[str], overrides: Sequence[str] = ()) -> list[Job]:
-    """Read recipes.
+    """Read recipes; ``-`` stands for what standard input holds.
 
     Raises:
         RecipeError: with everything that is wrong in any of them.
     """
     jobs: list[Job] = []
     faults: list[Fault] = []
+    if list(sources).count(STDIN) > 1:
+        raise RecipeError([Fault("is named twice, and can be read once", source=STDIN)])
     for source in sources:
         try:
-            jobs.append(Job(source, load_recipe(source, overrides), tuple(overrides)))
+            if source == STDIN:
+                text = read_stdin()
+                recipe = read_recipe(text, "stdin", overrides, folder=".")
+                jobs.append(Job("stdin", recipe, tuple(overrides), stem="recipe"))
+            else:
+                jobs.append(Job(source, load_recipe(source, overrides), tuple(overrides)))
         except RecipeError as error:
             faults += error.faults
     if faults:
@@ -90,13 +97,16 @@ def matching(sources: Sequence[str]) -> list[str]:
 
 
 def planned(
-    jobs: Sequence[Job], folder: Path, formats: Sequence[str] = (), called: Mapping[str, Any] | None = None
+    jobs: Sequence[Job],
+    folder: Path | None,
+    formats: Sequence[str] = (),
+    called: Mapping[str, Any] | None = None,
 ) -> list[Job]:
     """Return jobs with the files each of them makes.
 
     Args:
         jobs: as read.
-        folder: where all files go.
+        folder: where all files go; None where they are kept in none.
         formats: which formats are made; when left out those that the recipe asks for, or else SVG.
         called: keys of outputs that the call sets for all of them.
 
@@ -104,7 +114,8 @@ def planned(
         RecipeError: where two files would have the same name, or an output asks for what the recipe has not.
         ExportError: where a file cannot be written.
     """
-    check_folder(folder)
+    if folder is not None:
+        check_folder(folder)
     plans: list[Job] = []
     faults: list[Fault] = []
     taken: dict[str, Job] = {}
@@ -117,13 +128,14 @@ def planned(
             if fault := _unmet(job, output, key):
                 faults.append(fault)
                 continue
-            path = folder / _file_name(job, output)
+            path = (folder or Path()) / _file_name(job, output)
             place = os.path.normcase(path)
             if place in taken:
                 faults.append(_twice(path, taken[place], job, key))
                 continue
             taken[place] = job
-            _check_place(path, job, drawings)
+            if folder is not None:
+                _check_place(path, job, drawings)
             files.append((path, output))
         plans.append(replace(job, files=tuple(files)))
     if jobs and not faults:
@@ -218,19 +230,6 @@ def _key_of(job: Job, output: OutputSpec) -> str:
     return next((f"output[{i}]" for i, each in enumerate(job.recipe.output) if each is output), "")
 
 
-def check_folder(folder: Path) -> None:
-    """Raise where a folder cannot be written to, or could not be made.
-
-    Raises:
-        ExportError: saying what stands there.
-    """
-    there = next(each for each in (folder, *folder.parents, Path()) if os.path.lexists(each))
-    if not there.is_dir():
-        raise ExportError(f"{there} is a file, expected a folder")
-    if not os.access(there, os.W_OK | os.X_OK):
-        raise ExportError(f"{there} may not be written to")
-
-
 def _check_place(path: Path, job: Job, drawings: Container[str]) -> None:
     if os.path.realpath(path) in drawings:
         raise ExportError(f"{path} would replace the drawing that it is made of: choose a folder with -o")
@@ -271,7 +270,12 @@ def made(job: Job, tell: Callable[[str], None]) -> Artwork:
         return compile_recipe(job.recipe, progress=tell)
 
 
-def run(job: Job, tell: Callable[[str], None], look: Callable[[Page], None] | None = None) -> dict[str, Any]:
+def run(
+    job: Job,
+    tell: Callable[[str], None],
+    look: Callable[[Page], None] | None = None,
+    destination: Destination = into_folders,
+) -> dict[str, Any]:
     """Compile a job and write its files, all of them or none; return the report.
 
     ``look`` is called with the tile, or with the cloth where there is no tile.
@@ -306,7 +310,7 @@ def run(job: Job, tell: Callable[[str], None], look: Callable[[Page], None] | No
                 )
             notes += page_warnings(path, output, page)
     _check_apart(job, writers)
-    _write(writers)
+    destination(writers)
     return {
         "recipe": job.source,
         **facts_of(tile, cloth),
@@ -356,9 +360,9 @@ def _check_apart(job: Job, files: Sequence[tuple[Path, Any]]) -> None:
         taken.add(place)
 
 
-def run_quietly(job: Job) -> dict[str, Any]:
+def run_quietly(job: Job, destination: Destination = into_folders) -> dict[str, Any]:
     """Do :func:`run` without telling of its stages, as a worker does."""
-    return run(job, lambda stage: None)
+    return run(job, lambda stage: None, destination=destination)
 
 
 def _writer(
@@ -393,31 +397,3 @@ def _writer(
         )
 
     return write
-
-
-def _write(files: Sequence[tuple[Path, Callable[[BinaryIO], None]]]) -> None:
-    """Write all files or none; folders made for them go again where nothing comes of it."""
-    fresh: list[Path] = []
-    for path, _ in files:
-        fresh += make_folder(path.parent)
-    try:
-        write_all_whole(files)
-    except BaseException:
-        for folder in fresh:
-            with contextlib.suppress(OSError):
-                folder.rmdir()
-        raise
-
-
-def make_folder(folder: Path) -> list[Path]:
-    """Make a folder and those above it; return those that were not there, the innermost first.
-
-    Raises:
-        ExportError: naming what could not be made.
-    """
-    missing = [each for each in (folder, *folder.parents) if not each.exists()]
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise ExportError(f"{error.filename} could not be made: {error.strerror}") from error
-    return missing

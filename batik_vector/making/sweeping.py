@@ -23,7 +23,8 @@ from batik_vector.artwork import Artwork, Page
 from batik_vector.compiling.compiler import compile_recipe
 from batik_vector.errors import BatikError, Fault, RecipeError, shortened
 from batik_vector.export.files import write_all_whole
-from batik_vector.making.jobs import Job, check_folder, make_folder, planned, run
+from batik_vector.making.destinations import check_folder, make_folder
+from batik_vector.making.jobs import Job, planned, run
 from batik_vector.making.manifest import Made, Manifest, digest_of, picture_in
 from batik_vector.making.pages import drawings_of
 from batik_vector.making.pool import Outcome, outcomes

@@ -17,8 +17,8 @@ FIRST = str(SAMPLES / "figure-15-1.toml")
 def test_a_recipe_is_told_of_in_words() -> None:
     done = runner().invoke(cli, ["analyse", FIRST])
     assert done.exit_code == 0
-    assert done.stdout == ""
-    lines = done.stderr.splitlines()
+    assert done.stderr == ""
+    lines = done.stdout.splitlines()
     assert lines[0] == f"{FIRST}: Figure 15, flower 1"
     assert lines[1] == f"  {TABLE_2[1]}"
     for words in (
@@ -27,7 +27,7 @@ def test_a_recipe_is_told_of_in_words() -> None:
         "box dimension 1.",
         "nodes",
     ):
-        assert words in done.stderr, words
+        assert words in done.stdout, words
 
 
 def test_several_make_a_table_in_the_papers_columns(tmp_path: Path) -> None:
@@ -35,7 +35,7 @@ def test_several_make_a_table_in_the_papers_columns(tmp_path: Path) -> None:
     drawing.write_bytes(bare_svg(flower(2)))
     done = runner().invoke(cli, ["analyse", FIRST, str(drawing), str(tmp_path / "none.svg")])
     assert done.exit_code == 2
-    table = done.stderr.splitlines()[-4:]
+    table = done.stdout.splitlines()[-4:]
     assert table[0].split() == ["elements", "relation", "symmetry", "layers", "petal", "petals", "pistils"]
     assert table[1].split()[1:] == TABLE_2[1].split(", ")
     assert table[2].split()[1:] == TABLE_2[2].split(", ")
@@ -71,8 +71,8 @@ def test_a_drawing_without_a_flower_is_told_with_what_was_found(tmp_path: Path) 
     )
     done = runner().invoke(cli, ["analyse", str(drawing)])
     assert done.exit_code == 1
-    assert "cannot be judged as a flower: 5 marks of 1 shape" in done.stderr
-    assert "1, translation, " in done.stderr
+    assert "cannot be judged as a flower: 5 marks of 1 shape" in done.stdout
+    assert "1, translation, " in done.stdout
 
 
 @pytest.mark.parametrize(

@@ -46,9 +46,9 @@ def _check(*words: str | Path) -> Result:
 def test_what_a_machine_fails_at_is_told_with_its_place(recipe: Path) -> None:
     done = _check(recipe, "--machine", "canting")
     assert done.exit_code == 1
-    assert "1 narrow gaps of ink wax" in done.stderr
-    assert "at 20.00, 20.00 mm: bare ground only 0.2 mm wide over 16 mm, the least is 1 mm" in done.stderr
-    assert "FAILED: 1 findings for canting" in done.stderr
+    assert "1 narrow gaps of ink wax" in done.stdout
+    assert "at 20.00, 20.00 mm: bare ground only 0.2 mm wide over 16 mm, the least is 1 mm" in done.stdout
+    assert "FAILED: 1 findings for canting" in done.stdout
 
 
 def test_without_a_machine_nothing_of_it_is_told(recipe: Path) -> None:
@@ -107,14 +107,14 @@ def test_a_stranger_s_drawing_is_held_to_a_machine(tmp_path: Path) -> None:
     )
     done = _check(drawing, "--machine", "canting")
     assert done.exit_code == 1
-    assert "a mark 0.3 mm wide and 30 mm long, the least is 1 mm" in done.stderr
+    assert "a mark 0.3 mm wide and 30 mm long, the least is 1 mm" in done.stdout
 
 
 def test_a_cloth_has_to_fit_the_machine_and_not_the_screen(recipe: Path) -> None:
     recipe.write_text(RECIPE + '[yardage]\nwidth = "700 mm"\nlength = "900 mm"\n')
     done = _check(recipe, "--machine", "laser")
-    assert "700 × 900 mm are drawn, and the machine reaches 600 × 400 mm" in done.stderr
-    assert "are drawn, and" not in _check(recipe, "--machine", "rotary-screen").stderr
+    assert "700 × 900 mm are drawn, and the machine reaches 600 × 400 mm" in done.stdout
+    assert "are drawn, and" not in _check(recipe, "--machine", "rotary-screen").stdout
 
 
 def test_of_a_cut_file_the_pattern_is_held_to_the_machine(recipe: Path) -> None:
@@ -124,4 +124,4 @@ def test_of_a_cut_file_the_pattern_is_held_to_the_machine(recipe: Path) -> None:
     told = _check(recipe.with_suffix(".svg"), "--machine", "vinyl-cutter")
     # Its contours are open where tabs hold, and drawn again where they are cut past their start.
     assert told.exit_code == 0, told.output
-    assert "the tile that it was made of was measured" in told.stderr
+    assert "the tile that it was made of was measured" in told.stdout

@@ -59,9 +59,9 @@ def test_a_broken_tile_fails_where_it_is_broken(name: str) -> None:
 def test_what_a_stranger_drew_twice_is_told_and_passes(name: str, desk: Path) -> None:
     result = call(TILES / f"{name}.svg", "--pointers", ".")
     assert result.exit_code == 0
-    assert "remark: at" in result.stderr
-    assert "are drawn twice" in result.stderr
-    assert "nothing is drawn twice" not in result.stderr
+    assert "remark: at" in result.stdout
+    assert "are drawn twice" in result.stdout
+    assert "nothing is drawn twice" not in result.stdout
     assert (desk / f"{name}-check.svg").exists()
     facts = checked(TILES / f"{name}.svg")["certificate"]
     assert {each["kind"] for each in facts["remarks"]} == {"double"}

@@ -85,15 +85,15 @@ def test_a_drop_is_believed_as_it_is_told(desk: Path) -> None:
 
 def test_the_report_for_people_tells_where_and_what() -> None:
     result = call(TILES / "edge-moved.svg", "--group", "p4")
-    assert result.stdout == ""
-    lines = result.stderr.splitlines()
+    assert result.stderr == ""
+    lines = result.stdout.splitlines()
     assert "  tile 60 × 60 mm, repeats straight" in lines[1]
     assert "  symmetry p1, p4 asked for" in lines
     assert any(
         line.startswith("  at 0.000, 22.000 mm: soga: a border crosses the left edge") for line in lines
     )
     assert lines[-1].endswith("edge-moved.svg: FAILED: 2 faults")
-    assert call(TILES / "good.svg").stderr.endswith("passed: opposite edges agree, nothing is drawn twice\n")
+    assert call(TILES / "good.svg").stdout.endswith("passed: opposite edges agree, nothing is drawn twice\n")
 
 
 def test_limits_can_be_widened() -> None:

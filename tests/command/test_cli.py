@@ -132,10 +132,10 @@ def test_the_same_recipe_gives_the_same_bytes_from_anywhere(desk: Path) -> None:
 
 def test_check_tells_the_facts_and_writes_nothing(desk: Path) -> None:
     result = good("check", "k.toml")
-    assert result.stdout == ""
-    assert "tile 640 × 320 mm, repeats straight" in result.stderr
-    assert "wax (#f4efe2): " in result.stderr
-    assert result.stderr.endswith("k.toml: passed: opposite edges agree, nothing is drawn twice\n")
+    assert result.stderr == ""
+    assert "tile 640 × 320 mm, repeats straight" in result.stdout
+    assert "wax (#f4efe2): " in result.stdout
+    assert result.stdout.endswith("k.toml: passed: opposite edges agree, nothing is drawn twice\n")
     assert names(desk) == ["k.toml"]
     facts = json.loads(good("check", "k.toml", "--json").stdout)["recipes"][0]
     assert (facts["violations"], facts["seam"]) == ([], [])
@@ -147,9 +147,9 @@ def test_check_exits_with_1_where_the_work_has_faults(monkeypatch: pytest.Monkey
     monkeypatch.setattr("batik_vector.command.checks.inspect", lambda artwork: {**inspect(artwork), **faults})
     result = call("check", "k.toml")
     assert result.exit_code == 1
-    assert "fault: wax: 2 pairs of areas overlap" in result.stderr
-    assert "fault: wax: left and right edges disagree from 1.5 to 2 mm" in result.stderr
-    assert result.stderr.endswith("k.toml: FAILED: 2 faults\n")
+    assert "fault: wax: 2 pairs of areas overlap" in result.stdout
+    assert "fault: wax: left and right edges disagree from 1.5 to 2 mm" in result.stdout
+    assert result.stdout.endswith("k.toml: FAILED: 2 faults\n")
     assert call("check", "k.toml", "--set", "seed=x").exit_code == 2
 
 
@@ -184,7 +184,7 @@ def test_a_stretch_is_told_alike_everywhere(desk: Path) -> None:
     refused = call("compile", "k.toml", *fit, "--set", "tile.fit.limit=0.1").stderr
     assert "stretched by -0.311 %, past the limit of 0.1 %" in refused
     assert "stretched by -0.311 % across" in good("compile", "k.toml", *fit).stderr
-    assert "stretched to fit: -0.311 % across" in good("check", "k.toml", *fit).stderr
+    assert "stretched to fit: -0.311 % across" in good("check", "k.toml", *fit).stdout
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -201,7 +201,6 @@ def test_every_starter_is_sound(desk: Path, kind: str) -> None:
         ("My Kawung", "my-kawung.toml", "My Kawung"),
         ("kawung.toml", "kawung.toml", "kawung"),
         ('a "b" \\ \n\x7f', "a-b.toml", 'a "b" \\ \n\x7f'),
-        ("..", "recipe.toml", ".."),
         ("蜡染", "蜡染.toml", "蜡染"),
     ],
 )
@@ -212,7 +211,7 @@ def test_new_names_the_recipe(desk: Path, name: str, file: str, title: str) -> N
     assert batik_vector.load_recipe(desk / file).title == title
 
 
-@pytest.mark.parametrize("name", ["../../etc/x", "/etc/x", "sub/x.toml"])
+@pytest.mark.parametrize("name", ["../../etc/x", "/etc/x", "sub/x.toml", "..", ".", "~"])
 def test_new_takes_no_path_for_a_name(desk: Path, name: str) -> None:
     result = call("new", name)
     assert result.exit_code == 2
@@ -294,7 +293,7 @@ def test_garbage_is_collected_while_the_command_works_and_after_it() -> None:
     code = (
         "import gc, sys, batik_vector.making.jobs as jobs\n"
         "work, seen = jobs.run, []\n"
-        "jobs.run = lambda *args: (seen.append(gc.isenabled()), work(*args))[1]\n"
+        "jobs.run = lambda *args, **keys: (seen.append(gc.isenabled()), work(*args, **keys))[1]\n"
         "sys.argv[1:] = ['compile', 'k.toml']\n"
         "try: import batik_vector.__main__\n"
         "except SystemExit: print(seen, gc.isenabled())"

@@ -43,7 +43,7 @@ FAILED = {
 
 def checked(name: str, *options: str) -> tuple[int, str]:
     result = runner().invoke(cli, ["check", str(CASES / f"{name}.svg"), *options])
-    return result.exit_code, result.stderr
+    return result.exit_code, result.stdout
 
 
 def facts_of(name: str, *options: str) -> dict[str, Any]:
@@ -156,7 +156,7 @@ def test_many_files_end_in_a_table() -> None:
     files = [str(CASES / f"{name}.svg") for name in ("c02-checkerboard", "c22-half-drop-unit", "none")]
     result = runner().invoke(cli, ["check", *files])
     assert result.exit_code == 2
-    *_, head, first, second, third = result.stderr.splitlines()
+    *_, head, first, second, third = result.stdout.splitlines()
     assert head.split()[:3] == ["verdict", "faults", "remarks"]
     assert first.split()[:2] == [files[0], "passed"]
     assert second.split()[:3] == [files[1], "FAILED", "2"]

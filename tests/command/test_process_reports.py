@@ -58,8 +58,8 @@ def test_a_plot_tells_what_it_takes_and_what_it_left_out(tmp_path: Path) -> None
     assert "pen 4, blue: nothing is left to draw" in done.stderr
     assert "change of pen" not in done.stderr
     checked = runner().invoke(cli, ["check", str(tmp_path / "twice.svg")])
-    assert "went through plot once=all pens={blue=4}" in checked.stderr
-    assert "differs" not in checked.stderr
+    assert "went through plot once=all pens={blue=4}" in checked.stdout
+    assert "differs" not in checked.stdout
 
 
 def test_a_plot_is_compared_with_its_recipe_gone_through_the_same(tmp_path: Path) -> None:
@@ -69,7 +69,7 @@ def test_a_plot_is_compared_with_its_recipe_gone_through_the_same(tmp_path: Path
         cli, ["compile", str(recipe), "-o", str(tmp_path), "--machine", "pen-plotter", "--process", "plot"]
     )
     plotted = tmp_path / "twice.svg"
-    assert "differ" not in runner().invoke(cli, ["check", str(plotted)]).stderr.replace("mm² differ", "")
+    assert "differ" not in runner().invoke(cli, ["check", str(plotted)]).stdout.replace("mm² differ", "")
     drawn = plotted.read_text()
     first = drawn.index(' d="M') + 5
     end = drawn.index('"', first)
@@ -77,5 +77,5 @@ def test_a_plot_is_compared_with_its_recipe_gone_through_the_same(tmp_path: Path
     plotted.write_text(drawn[:first] + "1 1L9 9" + drawn[end:])
     assert (
         "the lines of the file and of the recipe differ"
-        in runner().invoke(cli, ["check", str(plotted)]).stderr
+        in runner().invoke(cli, ["check", str(plotted)]).stdout
     )

@@ -6,6 +6,7 @@ import codecs
 import os
 import re
 import stat
+import sys
 import tomllib
 from collections.abc import Mapping
 from importlib import import_module
@@ -17,6 +18,8 @@ from batik_vector.recipe.references import quoted
 MAX_TEXT = 1 << 20
 """Bytes of a recipe. The longest by hand has some thousands."""
 MAX_COMPILED = 512 << 20
+STDIN = "-"
+"""Names standard input where a command takes a recipe."""
 COMPILED = (".svg", ".pdf", ".dxf", ".hpgl", ".gcode", ".png", ".tiff")
 _SUFFIXES = (".toml", *COMPILED)
 CARRIED = (
@@ -54,6 +57,18 @@ def read_text(path: str | os.PathLike[str]) -> str:
     if found.st_size > limit:
         raise _fault(f"{found.st_size:,} bytes, expected at most {limit:,}", source)
     return _from_compiled(path) if compiled else _from_text(path, source)
+
+
+def read_stdin() -> str:
+    """Return the text of a recipe from standard input.
+
+    Raises:
+        RecipeError: where it holds none.
+    """
+    data = b"" if sys.stdin is None else sys.stdin.buffer.read(MAX_TEXT + 1)
+    if len(data) > MAX_TEXT:
+        raise _fault(f"more than {MAX_TEXT:,} bytes, expected a recipe", "stdin")
+    return decoded(data, "stdin")
 
 
 def scheme_of(source: str) -> tuple[str, str]:
