@@ -33,6 +33,7 @@ from batik_vector.machines.gcode import Comment, Gcode, Stop
 from batik_vector.processes.hatching.options import HATCHES
 from batik_vector.processes.options import PROCESSES
 from batik_vector.recipe.border import BorderSpec, Corner, Ends, Facing, RailSpec
+from batik_vector.recipe.colourways import ColourwaySpec
 from batik_vector.recipe.drawing import Dressing, Svg
 from batik_vector.recipe.lsystem import Grown, Growth
 from batik_vector.recipe.model import ClothSpec, InkSpec, Placement, Recipe, YardageSpec
@@ -254,6 +255,7 @@ def page() -> str:
     lines += section("`[cloth]`", ClothSpec, 2)
     lines += section("`[ink.NAME]`", InkSpec, 2)
     lines += words("overlap", Overlap)
+    lines += section("`[colourway.NAME]`", ColourwaySpec, 2)
     lines += section("`[[place]]`", Placement, 2)
     lines += words("region", Spread)
     lines += ["## `[motif.NAME]`", "", "`kind` says which of these it is.", ""]

@@ -18,7 +18,7 @@ from batik_vector.command.made_files import (
     files_options,
     tell_files,
 )
-from batik_vector.command.options import jobs_option, json_option, recipes_argument, set_option
+from batik_vector.command.options import jobs_option, json_option, listed, recipes_argument, set_option
 from batik_vector.command.telling import collecting, faults_told, reported
 
 if TYPE_CHECKING:
@@ -29,6 +29,9 @@ if TYPE_CHECKING:
 @click.command("compile", short_help="Compile recipes to files.")
 @recipes_argument
 @files_options
+@click.option(
+    "--colourway", metavar="NAME,…|all", help="Colourways of the recipe: files for each, called after it."
+)
 @set_option
 @jobs_option
 @click.option("--dry-run", is_flag=True, help="Make all files and write none: tell their sizes.")
@@ -43,6 +46,7 @@ def compile_command(
     margin: str | None,
     dpi: float | None,
     curves: str | None,
+    colourway: str | None,
     overrides: Sequence[str],
     jobs: int,
     dry_run: bool,
@@ -62,7 +66,12 @@ def compile_command(
         place = destination(folder, formats, dry_run, as_json)
         keys = called(processes, machine, pages, margin, dpi, curves)
         where = None if folder == STDOUT else Path(folder)
-        work, lacking = ready(planned(read_jobs(matching(recipes), overrides), where, formats, keys))
+        asked = read_jobs(matching(recipes), overrides)
+        if colourway is not None:
+            from batik_vector.making.palettes import jobs_in_colourways
+
+            asked = jobs_in_colourways(asked, listed(colourway))
+        work, lacking = ready(planned(asked, where, formats, keys))
         if folder == STDOUT:
             check_alone(work)
         for done in _made(work, jobs, as_json, report, place):

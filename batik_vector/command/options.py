@@ -42,6 +42,11 @@ def formats_begun(_ctx: click.Context, _param: click.Parameter, text: str) -> li
     return [f"{before}{comma}{name}" for name in FORMATS if name.startswith(begun.lower())]
 
 
+def listed(text: str) -> list[str]:
+    """Return names that commas part."""
+    return [name.strip() for name in text.split(",") if name.strip()]
+
+
 def workers_of(_ctx: click.Context, _param: click.Parameter, number: int) -> int:
     """Return how many processes work: 0 stands for one on each core."""
     if number:

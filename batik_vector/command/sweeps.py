@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from batik_vector.command.options import Finite, format_names, jobs_option, json_option, set_option
+from batik_vector.command.options import Finite, format_names, jobs_option, json_option, listed, set_option
 from batik_vector.command.telling import collecting, complain, counted, reported
 from batik_vector.errors import unknown_name
 from batik_vector.values import frozen
@@ -127,6 +127,9 @@ def _shared(folder: str) -> Callable[[Command], Command]:
 @click.option(
     "--palettes", metavar="NAME,…|all", help="Also vary the colours: kelengan, sogan, tiga-negeri, …"
 )
+@click.option(
+    "--colourways", metavar="NAME,…|all", help="Also vary the colours by the recipe's own colourways."
+)
 @click.option("--random", "sample", type=click.IntRange(1), metavar="N", help="A sample of N, spread evenly.")
 @click.option("--seed", type=click.IntRange(0), default=0, metavar="N", help="Which sample.  [default: 0]")
 @_shared("NAME-sweep")
@@ -135,6 +138,7 @@ def _shared(folder: str) -> Callable[[Command], Command]:
 def sweep_command(
     vary: Sequence[str],
     palettes: str | None,
+    colourways: str | None,
     sample: int | None,
     seed: int,
     limit: int | None,
@@ -158,8 +162,11 @@ def sweep_command(
         if palettes:
             from batik_vector.making.palettes import palette_axis
 
-            names = [name.strip() for name in palettes.split(",") if name.strip()]
-            axes.append(palette_axis(making.base(), names))
+            axes.append(palette_axis(making.base(), listed(palettes)))
+        if colourways:
+            from batik_vector.making.palettes import colourway_axis
+
+            axes.append(colourway_axis(making.base(), listed(colourways)))
         found = variants(axes, stem_of(wishes.recipe), sample=sample or 0, seed=seed, most=limit or MOST)
         planned = planned_sweep(making, tuple(found))
         if dry_run:

@@ -1,31 +1,19 @@
-"""Palettes by the names that batik has for them, and how a recipe takes the colours of one.
-
-The names say which baths a cloth has seen: *kelengan* indigo alone, *bangbangan* red alone, *bang biru* red
-and blue, *tiga negeri* ("three lands") red, blue and soga brown. The colours are ours, for the screen.
-"""
+"""How a recipe takes the colours of a palette, or of one of its colourways."""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from batik_vector.errors import Fault, RecipeError, unknown_name
+from batik_vector.making.jobs import Job
 from batik_vector.making.variants import Axis
+from batik_vector.recipe.colourways import PALETTES
 from batik_vector.recipe.drawing import Svg
+from batik_vector.recipe.loading import located, read_recipe
 from batik_vector.recipe.model import InkSpec, Recipe
-
-PALETTES: Mapping[str, tuple[str, ...]] = {
-    "kelengan": ("#f4efe2", "#9fb9d8", "#5a7fb5", "#1d2f5f", "#111a38"),
-    "bangbangan": ("#f6ecd9", "#e3a98f", "#b5362c", "#7a1d1c", "#431214"),
-    "bang-biru": ("#f5eedd", "#e08e76", "#b3302b", "#2c4a86", "#151f45"),
-    "bang-biru-ijo": ("#f6efdd", "#e7b84f", "#c0392f", "#2f6a57", "#1c3158"),
-    "tiga-negeri": ("#f3e7cf", "#c9965a", "#a8322b", "#27467e", "#1f1a22"),
-    "sogan": ("#f2e4c6", "#c99a5b", "#8a5628", "#4a2b18", "#161a2c"),
-    "lasem": ("#f7efe0", "#d98d7f", "#a5242b", "#5c1622", "#22182a"),
-    "ijo": ("#f3f0df", "#a9c29a", "#5c8f6a", "#2d5a4a", "#14302b"),
-    "mangosteen": ("#f4ece4", "#cbb3cf", "#8a5a92", "#4b2a5c", "#21152e"),
-    "charcoal": ("#f5f2ec", "#bdb6ac", "#7d766e", "#3d3833", "#181614"),
-}
-"""Five colours each, the lightest first."""
+from batik_vector.recipe.reading.sources import scheme_of, stem_of
 
 
 def lightness(colour: str) -> float:
@@ -39,25 +27,40 @@ def recoloured(recipe: Recipe, palette: str) -> tuple[str, ...]:
     """Return what is set in a recipe so that it has the colours of a palette, as ``KEY=VALUE``.
 
     What is light stays light: the recipe's colours take those of the palette in the order of their lightness,
-    spread over its whole range; equal colours stay equal. Drawings that keep their colours find their inks by
-    them as before.
+    spread over its whole range; equal colours stay equal.
     """
     old = [recipe.cloth.colour, *(ink.colour for ink in recipe.ink.values())]
     ranked = sorted(set(old), key=lambda colour: (-lightness(colour), colour))
     colours = PALETTES[palette]
     last = max(len(ranked) - 1, 1)
     taken = {colour: colours[round(place * (len(colours) - 1) / last)] for place, colour in enumerate(ranked)}
-    changes = [f'cloth.colour="{taken[recipe.cloth.colour]}"']
+    return _set(
+        recipe, taken[recipe.cloth.colour], {name: taken[ink.colour] for name, ink in recipe.ink.items()}
+    )
+
+
+def in_colourway(recipe: Recipe, name: str) -> tuple[str, ...]:
+    """Return what is set in a recipe so that it has the colours of a colourway of its own, likewise."""
+    spec = recipe.colourway[name]
+    given = recoloured(recipe, spec.palette) if spec.palette else ()
+    own = _set(recipe, spec.cloth, spec.ink)
+    taken = {each.partition("=")[0]: each for each in (*given, *own)}
+    return tuple(taken.values())
+
+
+def _set(recipe: Recipe, cloth: str | None, inks: Mapping[str, str]) -> tuple[str, ...]:
+    """Return what gives cloth and inks other colours; drawings that keep theirs find their inks as before."""
+    changes = [] if cloth is None else [f'cloth.colour="{cloth}"']
     kept = {
         colour for motif in recipe.motif.values() if isinstance(motif, Svg) for colour in motif.colours_kept()
     }
-    for name, ink in recipe.ink.items():
-        key = f"ink.{_quoted(name)}"
+    for name, colour in inks.items():
+        key, ink = f"ink.{_quoted(name)}", recipe.ink[name]
         if name in kept and ink == InkSpec(colour=name):
             # The recipe says nothing of it: it was made of a colour in a drawing, and goes by that.
-            changes.append(f'{key}={{colour="{taken[ink.colour]}"}}')
+            changes.append(f'{key}={{colour="{colour}"}}')
             continue
-        changes.append(f'{key}.colour="{taken[ink.colour]}"')
+        changes.append(f'{key}.colour="{colour}"')
         if ink.drawn is None and ink.colour in kept and name != ink.colour:
             changes.append(f'{key}.drawn="{ink.colour}"')
     return tuple(changes)
@@ -83,3 +86,51 @@ def palette_axis(recipe: Recipe, names: Sequence[str]) -> Axis:
         if name not in PALETTES:
             raise RecipeError(unknown_name(name, list(PALETTES), "palette"))
     return Axis("palette", tuple(wanted), changes=tuple(recoloured(recipe, name) for name in wanted))
+
+
+def colourway_axis(recipe: Recipe, names: Sequence[str]) -> Axis:
+    """Return the axis that varies the colourway.
+
+    Raises:
+        RecipeError: where the recipe has none of a name ("all" stands for all of them).
+    """
+    wanted = colourways_of(recipe, names)
+    return Axis("colourway", wanted, changes=tuple(in_colourway(recipe, name) for name in wanted))
+
+
+def colourways_of(recipe: Recipe, names: Sequence[str]) -> tuple[str, ...]:
+    """Return the names of colourways that a call asks for.
+
+    Raises:
+        RecipeError: where the recipe has none of a name ("all" stands for all of them).
+    """
+    if not recipe.colourway:
+        words = "the recipe has none: expected [colourway.NAME] tables with colours of cloth and inks"
+        raise RecipeError([Fault(words, "colourway")])
+    wanted = tuple(recipe.colourway) if "all" in names else tuple(dict.fromkeys(names))
+    for name in wanted:
+        if name not in recipe.colourway:
+            raise RecipeError([Fault(unknown_name(name, list(recipe.colourway), "colourway"))])
+    return wanted
+
+
+def jobs_in_colourways(jobs: Sequence[Job], names: Sequence[str]) -> list[Job]:
+    """Return each job once for each of some colourways, whose name is added to its files'.
+
+    Raises:
+        RecipeError: where a recipe has none of a name; see :func:`colourways_of`.
+    """
+    found = []
+    for job in jobs:
+        try:
+            wanted = colourways_of(job.recipe, names)
+        except RecipeError as error:
+            raise located(error, job.source, job.recipe.source) from None
+        for name in wanted:
+            changes = in_colourway(job.recipe, name)
+            folder = None if scheme_of(job.source)[0] else os.path.dirname(job.source) or "."
+            # The text is there, and standard input is read once.
+            recipe = read_recipe(job.recipe.source, job.source, changes, folder)
+            stem = f"{job.stem or stem_of(job.source)}-{name}"
+            found.append(replace(job, recipe=recipe, overrides=(*job.overrides, *changes), stem=stem))
+    return found

@@ -10,6 +10,8 @@ from batik_vector.artwork import Cmyk, Dyeing, Ink, Lab, Overlap
 from batik_vector.errors import Fault, GeometryError, RecipeError
 from batik_vector.fields import HIDDEN, Between, Colour, Length, OneOf, Says, Unset, check
 from batik_vector.recipe.border import BorderSpec
+from batik_vector.recipe.colourways import ColourwaySpec
+from batik_vector.recipe.colourways import faults_of as wrong_colourways
 from batik_vector.recipe.drawing import Svg
 from batik_vector.recipe.dyeing import BathSpec, Dyed, Inks, dyeing_of, faults_of, ink_key
 from batik_vector.recipe.motif import MOTIFS, Motif, Treatment
@@ -99,6 +101,9 @@ class Recipe:
     )
     cloth: Annotated[ClothSpec, Says("the ground")] = field(default_factory=ClothSpec)
     bath: Annotated[tuple[BathSpec, ...], Says("the dye baths, in the order of dyeing")] = ()
+    colourway: Annotated[dict[str, ColourwaySpec], Says("other colours for the recipe, by name")] = field(
+        default_factory=dict
+    )
     output: Annotated[tuple[AnyOutput, ...], Says("files to write")] = ()
     drawing: Annotated[
         dict[str, str],
@@ -114,6 +119,7 @@ class Recipe:
         faults = [fault for _, fault in unknown_references(self)]
         faults += self._missing() + self._bad_names() + self._without_ink() + self._bad_symmetries()
         faults += faults_of(self.bath, self.cloth.undyed, self._dyed(), self._ground())
+        faults += wrong_colourways(self.colourway, self.ink, bool(self.bath))
         if faults:
             raise RecipeError(faults)
         self._take_dyes()

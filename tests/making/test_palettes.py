@@ -7,11 +7,15 @@ from pathlib import Path
 
 import pytest
 import shapely
+from PIL import Image
 
 from batik_vector import compile_recipe, load_recipe, read_recipe
+from batik_vector.command.cli import cli
 from batik_vector.errors import RecipeError
-from batik_vector.making.palettes import PALETTES, lightness, palette_axis, recoloured
+from batik_vector.making.palettes import colourway_axis, in_colourway, lightness, palette_axis, recoloured
 from batik_vector.making.variants import parse_axis, variants
+from batik_vector.recipe.colourways import PALETTES
+from tests.calling import runner
 
 SAMPLES = Path(__file__).parents[2] / "samples"
 
@@ -105,3 +109,72 @@ def test_every_palette_suits_a_sample_that_keeps_the_colours_of_its_drawing() ->
     recipe = load_recipe(SAMPLES / "lasem-bird.toml")
     for changes in palette_axis(recipe, ["all"]).changes:
         assert [*load_recipe(SAMPLES / "lasem-bird.toml", changes).ink] == ["cotton", "indigo"]
+
+
+COLOURWAYS = """
+[colourway.night]
+cloth = "#101020"
+ink = { soga = "#5577aa" }
+
+[colourway.red]
+palette = "bangbangan"
+ink = { cotton = "#ffffff" }
+"""
+
+
+@pytest.fixture
+def kawung(tmp_path: Path) -> Path:
+    path = tmp_path / "k.toml"
+    path.write_text((SAMPLES / "kawung.toml").read_text("utf-8") + COLOURWAYS)
+    return path
+
+
+def test_a_colourway_changes_what_it_says(kawung: Path) -> None:
+    recipe = load_recipe(kawung)
+    night, red = (load_recipe(kawung, in_colourway(recipe, name)) for name in ("night", "red"))
+    assert (night.cloth.colour, night.ink["soga"].colour) == ("#101020", "#5577aa")
+    assert night.ink["cotton"] == recipe.ink["cotton"]
+    assert {red.cloth.colour, red.ink["soga"].colour} < set(PALETTES["bangbangan"])
+    assert red.ink["cotton"].colour == "#ffffff"
+    assert compile_recipe(night).layers[0].areas.tolist() == compile_recipe(recipe).layers[0].areas.tolist()
+
+
+def test_files_of_each_colourway_and_a_sheet(kawung: Path) -> None:
+    out = kawung.parent / "out"
+    done = runner().invoke(
+        cli, ["compile", str(kawung), "--colourway", "all", "-o", str(out), "-f", "svg,tiff"]
+    )
+    assert done.exit_code == 0, done.stderr
+    assert sorted(path.name for path in out.iterdir()) == sorted(
+        f"k-{name}{end}" for name in ("night", "red") for end in (".svg", "-soga.tiff", "-cotton.tiff")
+    )
+    assert "#5577aa" in (out / "k-night.svg").read_text("utf-8")
+    # Plates are black whatever the colour.
+    assert read_pixels(out / "k-night-soga.tiff") == read_pixels(out / "k-red-soga.tiff")
+    args = [
+        "sweep",
+        str(kawung),
+        "--colourways",
+        "all",
+        "--sheet",
+        "--sheet-format",
+        "svg",
+        "-o",
+        str(out / "s"),
+    ]
+    assert runner().invoke(cli, args).exit_code == 0
+    assert "colourway night" in (out / "s" / "k-sheet.svg").read_text("utf-8")
+
+
+def read_pixels(path: Path) -> bytes:
+    with Image.open(path) as image:
+        return image.tobytes()
+
+
+def test_a_colourway_that_is_not_there(kawung: Path) -> None:
+    recipe = load_recipe(kawung)
+    with pytest.raises(RecipeError, match='unknown colourway "nigth": did you mean "night"'):
+        colourway_axis(recipe, ["nigth"])
+    with pytest.raises(RecipeError, match=r"the recipe has none: expected \[colourway.NAME\]"):
+        colourway_axis(load_recipe(SAMPLES / "kawung.toml"), ["all"])
+    assert colourway_axis(recipe, ["all"]).values == ("night", "red")

@@ -72,6 +72,15 @@ def test_the_schema_accepts_what_compiles(path: Path) -> None:
 BEYOND = {
     *(
         "an ink in parts of one",
+        "a colourway of an ink that is not",
+        "a colourway of an unknown palette",
+        "a colourway of nothing",
+        "a colourway called all",
+        "a colourway that no file can be called after",
+        "a colourway beside a colour in print",
+        "a plate of an ink that is not",
+        "a plate of too many pixels",
+        "inks further out of register than the tile",
         "a press of which there is no profile",
         "a press outside of the folder",
         "a day for no press",
