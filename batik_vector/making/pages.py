@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, BinaryIO, TypeAlias
 
-from batik_vector.artwork import Artwork, Page
+from batik_vector.artwork import Artwork, Cell, Page
 from batik_vector.errors import Fault, GeometryError, RecipeError
 from batik_vector.export import FORMATS, write_page
 from batik_vector.machines.profile import Machine
@@ -178,7 +178,9 @@ def render_output(page: Page, output: OutputSpec, sink: BinaryIO, latest: Latest
 def finished(page: Page, output: OutputSpec, latest: Latest) -> tuple[Page, Mapping[str, Any]]:
     """Return a page as an output shows it and its processes leave it, and what these have to report."""
     if isinstance(page, Artwork):
-        page = _set_out(page, getattr(output, "repeat", (1, 1)), getattr(output, "bleed", 0.0))
+        page = _set_out(page, output)
+    elif getattr(output, "marks", False):
+        page = _marked(page)
     return prepared(page, output, latest)
 
 
@@ -220,22 +222,44 @@ def _keyed(key: str) -> Iterator[None]:
         raise RecipeError([Fault(words, f"{key}.{name}" if name else key)]) from error
 
 
-def _set_out(tile: Artwork, repeat: tuple[int, int], bleed: float) -> Page:
-    if repeat == (1, 1) and not bleed:
+def _set_out(tile: Artwork, output: OutputSpec) -> Page:
+    across, up = getattr(output, "repeat", (1, 1))
+    bleed, marks = getattr(output, "bleed", 0.0), getattr(output, "marks", False)
+    # What a machine is to follow is not drawn twice.
+    whole = getattr(output, "wraps", False) and not output.process
+    whole = whole and any(len(layer.lines) for layer in tile.layers)
+    if across == up == 1 and not (bleed or marks or whole):
         return tile
     # Most files show the tile once, and do without all that fills a field with it.
     from batik_vector.tiling.cloth.field import field_page
 
-    return field_page(tile, *repeat, bleed)
+    page = field_page(tile, across, up, bleed, whole)
+    return _marked(page) if marks else page
+
+
+def _marked(page: Page) -> Page:
+    from batik_vector.tiling.cloth.print_marks import with_print_marks
+    from batik_vector.tiling.cloth.yardage import Yardage
+
+    return with_print_marks(page) if isinstance(page, Yardage) else page
 
 
 def size_of(page: Page, output: OutputSpec) -> list[float]:
     """Return the breadth and height of what a file shows, in mm."""
+    marks = getattr(output, "marks", False)
     if not isinstance(page, Artwork):
-        return page_size(page)
+        return page_size(_marked(page) if marks else page)
     across, up = getattr(output, "repeat", (1, 1))
-    margin = 2 * getattr(output, "bleed", 0.0)
-    return [round(page.cell.width * across + margin, 3), round(page.cell.height * up + margin, 3)]
+    bleed = getattr(output, "bleed", 0.0)
+    width, height = page.cell.width * across, page.cell.height * up
+    if marks:
+        from batik_vector.tiling.cloth.print_marks import marked_margins
+
+        field = Cell(page.cell.columns * across, page.cell.rows * up)
+        margins = marked_margins(field, bleed, page.title, [each.ink.name for each in page.layers])
+        beside, below = margins.left + margins.right, margins.bottom + margins.top
+        return [round(width + beside / STEPS_PER_MM, 3), round(height + below / STEPS_PER_MM, 3)]
+    return [round(width + 2 * bleed, 3), round(height + 2 * bleed, 3)]
 
 
 def page_size(page: Page) -> list[float]:

@@ -17,7 +17,8 @@ class Treatment(enum.StrEnum):
     """Filled: solid resist."""
     LINE = "line"
     """A centre line, for pens and plotters. How broad it shows is left to the pen, so a line that runs within
-    half its breadth of the tile's edge shows no other half on the opposite one: print with ``stroke``."""
+    half its breadth of the tile's edge shows its other half on the opposite one in a PDF with spot
+    inks alone: print so, or with ``stroke``."""
     STROKE = "stroke"
     """A line with a body: the area a canting of the ink's width leaves."""
     BOTH = "both"

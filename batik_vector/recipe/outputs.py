@@ -11,6 +11,7 @@ from batik_vector.export.options import (
     DxfOptions,
     GcodeOptions,
     HpglOptions,
+    PdfInks,
     PdfOptions,
     PngOptions,
     SvgOptions,
@@ -103,6 +104,21 @@ class PdfOutput(OutputSpec, PdfOptions):
     bleed: Annotated[
         Annotated[Length, Between(0, 100)], Says("how far the pattern goes on beyond the trim")
     ] = 0.0
+    marks: Annotated[
+        bool, Says("crop and registration marks, the names of the inks, and a patch of each, round the page")
+    ] = False
+    wrap: Annotated[
+        bool | None,
+        Says(
+            "lines along the tile's edge show their other half on the opposite one, too: unless told, with "
+            "spot inks"
+        ),
+    ] = None
+
+    @property
+    def wraps(self) -> bool:
+        """Whether lines along the tile's edge are drawn on the opposite edge too."""
+        return self.inks is PdfInks.SPOT if self.wrap is None else self.wrap
 
 
 @frozen(kw_only=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import re
 from collections.abc import Callable, Iterable
 from dataclasses import replace
@@ -16,7 +17,11 @@ from PIL import Image
 from batik_vector.artwork import Artwork, Cell, Ink, Layer, Overlap
 from batik_vector.export import PdfInks, PdfOptions, render
 from batik_vector.machines import Machine
+from batik_vector.making.pages import Latest, render_output
 from batik_vector.processes.options import TrapProcess
+from batik_vector.recipe.outputs import PdfOutput
+from batik_vector.tiling.cloth.field import field_page
+from batik_vector.tiling.cloth.print_marks import with_print_marks
 from tests.clients import programs
 from tests.clients.pictures import load
 
@@ -89,3 +94,33 @@ def test_a_file_for_a_press_is_taken_for_one(tmp_path: Path, viewer: Callable[[P
     picture = np.asarray(load(viewer(pdf, PER_MM)))
     assert picture[20, 20].min() > 250
     assert picture[250, 100].tolist() != picture[250, 300].tolist()
+
+
+def test_marks_stand_on_every_plate_and_each_has_its_own_patch(tmp_path: Path) -> None:
+    pdf = tmp_path / "drawing.pdf"
+    page = with_print_marks(field_page(two(Overlap.OVERLAY), bleed=3.0))
+    pdf.write_bytes(render(page, "pdf", PdfOptions(inks=PdfInks.SPOT)))
+    pictures = {name: np.asarray(Image.open(path)) for name, path in programs.plates(pdf, PER_MM).items()}
+    left, bottom, *_ = (round(each * PER_MM) for each in programs.page_mm(pdf, "TrimBox"))
+    trim = pictures["Cyan"].shape[0] - bottom
+    assert len(pictures) == 6
+    inked = {}
+    for name, picture in pictures.items():
+        # The corner's trim mark ends 2 mm from the bleed.
+        assert picture[trim - 2 : trim + 2, left - 100 : left - 60].min() < 100
+        inked[name] = float((picture[trim + 240 :] < 100).sum()) / PER_MM**2
+    assert {name for name, area in inked.items() if area > 36} == {"light%2Fwarm", "dark blue"}
+
+
+@pytest.mark.parametrize("viewer", [programs.poppler, programs.mupdf])
+def test_a_line_along_the_edge_shows_its_other_half(
+    tmp_path: Path, viewer: Callable[[Path, float], Path]
+) -> None:
+    lines = np.array([shapely.LineString([(0.5, 0), (0.5, 40)]), None], dtype=object)[:-1]
+    tile = Artwork("line", Cell(40_000, 40_000), (Layer(Ink("ink", "#000000", 4.0), lines=lines),))
+    sink = io.BytesIO()
+    render_output(tile, PdfOutput(inks=PdfInks.SPOT), sink, Latest())
+    pdf = tmp_path / "line.pdf"
+    pdf.write_bytes(sink.getvalue())
+    row = np.asarray(load(viewer(pdf, PER_MM)))[200, :, 0] < 128
+    assert np.flatnonzero(row).tolist() == [*range(25), *range(385, 400)]

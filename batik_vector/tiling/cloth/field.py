@@ -17,11 +17,14 @@ from batik_vector.tiling.welding.stack import MAX_VERTICES
 from batik_vector.units import STEPS_PER_MM, to_steps
 
 
-def field_page(artwork: Artwork, across: int = 1, up: int = 1, bleed: float = 0.0) -> Yardage:
+def field_page(
+    artwork: Artwork, across: int = 1, up: int = 1, bleed: float = 0.0, whole_lines: bool = False
+) -> Yardage:
     """Return ``across`` × ``up`` tiles in one cell as a page, their marks whole and welded.
 
     The cell of a tile that repeats with a drop is larger by the counts and drops by what is left of it. The
-    field goes on ``bleed`` mm beyond the cell on every side.
+    field goes on ``bleed`` mm beyond the cell on every side; with ``whole_lines`` lines go on by half their
+    breadth more, so that both halves show of those along the page's edge.
 
     Raises:
         TooLargeError: where the field would have more vertices than any file can hold.
@@ -47,6 +50,7 @@ def field_page(artwork: Artwork, across: int = 1, up: int = 1, bleed: float = 0.
         origin=(0, 0),
         drawn=tuple(drawn_inks(artwork)),
         dyeing=artwork.dyeing,
+        whole_lines=whole_lines,
     )
 
 

@@ -19,6 +19,7 @@ from batik_vector.artwork import Artwork, Cell, Dyeing, Geometries, Ink, Layer, 
 from batik_vector.errors import GeometryError, TooLargeError
 from batik_vector.geometry.outlines import MM, Outlines, Steps, nothing, of_polygons, of_polylines
 from batik_vector.tiling.cloth.clusters import clustered
+from batik_vector.tiling.cloth.colour_bar import ColourBar
 from batik_vector.tiling.cloth.filling import filled_areas, filled_lines
 from batik_vector.tiling.cloth.guides import Guides, guide_ink
 from batik_vector.tiling.cloth.spec import Align, Edge, YardageSpec
@@ -80,7 +81,8 @@ class Yardage:
     ``origin`` is where the tile's lower left corner lies, in steps; ``filling`` says what the field fills, as
     seen from there. ``joining_corners`` are its bare corners for inks of which borders are drawn too: the
     field then reaches a little into the border, and is welded with it. ``tell`` is called with a word or two
-    as each band is drawn.
+    as each band is drawn. ``whole_lines`` has lines go over the page's edge by half their breadth, so that
+    both halves of those show that run along it; ``bar`` is a colour bar in the margin.
     """
 
     title: str
@@ -99,13 +101,16 @@ class Yardage:
     facts: Mapping[str, Any] = field(default_factory=dict)
     tell: Callable[[str], None] = field(default=lambda words: None)
     dyeing: Dyeing | None = None
+    whole_lines: bool = False
+    bar: ColourBar | None = None
 
     @property
     def plates(self) -> tuple[Plate, ...]:
         """The inks in painting order, and the marks for those who print and cut above them."""
         ink = guide_ink(self.cloth)
         guides = (Plate(ink, areas=False, lines=True, guide=True),) if self.guides else ()
-        return (*(each.plate for each in self.drawn), *guides)
+        inks = (each.plate for each in self.drawn)
+        return (*(replace(each, areas=True) if self.bar else each for each in inks), *guides)
 
     def areas(self, number: int) -> Iterator[Outlines]:
         """Yield the areas of a layer, in pieces."""
@@ -117,19 +122,30 @@ class Yardage:
             filling = replace(filling, corners=self.joining_corners)
         for piece in filled_areas(each.areas, filling, weld, each.border_areas, each.area_guard):
             yield piece.moved(*self.origin)
+        if self.bar is not None:
+            yield self.bar.patch(number)
 
     def lines(self, number: int) -> Iterator[Outlines]:
         """Yield the centre lines of a layer, in pieces."""
         if number == len(self.drawn):
             if self.guides:
                 yield self.guides.outlines()
+            if self.bar is not None:
+                yield self.bar.heading()
             return
         each = self.drawn[number]
-        for piece in filled_lines(each.lines, self._telling(each.ink), each.border_lines, each.line_guard):
+        filling = self._telling(each.ink)
+        if self.whole_lines:
+            filling = replace(filling, window=_grown(filling.window, to_steps(each.ink.width / 2) + 1))
+        for piece in filled_lines(each.lines, filling, each.border_lines, each.line_guard):
             yield piece.moved(*self.origin)
 
     def _telling(self, ink: Ink) -> Filling:
         return replace(self.filling, tell=lambda share: self.tell(f"{ink.name} {share:.0%}"))
+
+
+def _grown(window: Window, by: int) -> Window:
+    return Window(window.left - by, window.bottom - by, window.right + by, window.top + by)
 
 
 NOTHING = Unrolled(nothing(), nothing(), np.empty(0, np.intp))
