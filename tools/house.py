@@ -57,7 +57,7 @@ STRANGERS = ("library",)
 WINGS: dict[str, Floors] = {
     "tiling": _floors("layouts", "torus", "welding tossing", "symmetry cloth borders"),
     "geometry": _floors(
-        "sampling outlines edge_snap",
+        "sampling outlines edge_snap lettering",
         "known work paths arc_fitting congruence",
         "regions nesting",
         "lsystems",
