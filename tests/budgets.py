@@ -184,7 +184,7 @@ def cold() -> None:
     """Forget what earlier compilations read, drew and overlaid."""
     builder._known.clear()
     loading._tables.cache_clear()
-    remembered._known.clear()
+    remembered.clear()
     placements._kept.clear()
     figures._copied.cache_clear()
     figures._alone.cache_clear()

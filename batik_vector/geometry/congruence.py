@@ -16,6 +16,10 @@ _MIX = tuple(np.uint64(k) for k in (0x9E3779B97F4A7C15, 0xBF58476D1CE4E5B9, 0x94
 """Odd multipliers of a 64-bit mixer: Steele, Lea and Flood, "Fast splittable generators" (2014)."""
 
 
+FEW = 400
+"""Runs of rows that are told apart one by one."""
+
+
 def alike(rows: Steps, offsets: Offsets | None = None) -> tuple[Index, Index]:
     """Return which runs of rows equal none before them, and for each run which of those it equals.
 
@@ -28,8 +32,11 @@ def alike(rows: Steps, offsets: Offsets | None = None) -> tuple[Index, Index]:
         Shapes (k,), ascending, and (n,), numbers of the former. Fingerprints find the candidates, and each
         is compared with its first in full.
     """
-    if not len(rows):
+    count = len(rows) if offsets is None else len(offsets) - 1
+    if not count:
         return np.empty(0, np.intp), np.empty(0, np.intp)
+    if count <= FEW:
+        return _alike_few(rows, np.arange(count + 1) if offsets is None else offsets)
     prints = _fingerprints(rows, offsets)
     order = np.argsort(prints, kind="stable")
     begins = np.ones(len(order), bool)
@@ -42,6 +49,17 @@ def alike(rows: Steps, offsets: Offsets | None = None) -> tuple[Index, Index]:
         first[other] = other
     heads = np.flatnonzero(first == np.arange(len(first)))
     return heads, np.searchsorted(heads, first)
+
+
+def _alike_few(rows: Steps, offsets: Offsets) -> tuple[Index, Index]:
+    """Do the work of :func:`alike` in a dictionary, which is sooner done with few."""
+    raw, width = np.ascontiguousarray(rows).tobytes(), rows.shape[1] * rows.itemsize
+    ends = (offsets * width).tolist()
+    first: dict[bytes, int] = {}
+    at = first.setdefault
+    numbers = [at(raw[ends[n] : ends[n + 1]], n) for n in range(len(ends) - 1)]
+    heads = np.fromiter(first.values(), np.intp, len(first))
+    return heads, np.searchsorted(heads, numbers)
 
 
 def different(steps: Outlines) -> tuple[Index, Index, Steps]:

@@ -181,7 +181,7 @@ def spend_on_pairs(count: int) -> None:
 
 def spend_on_asking(shapes: Geometries, asked: Indices, per_vertex: float = PER_PAIR_VERTEX) -> None:
     """Take up the work of asking shapes, given by their numbers, how they lie to others."""
-    vertices = float(shapely.get_num_coordinates(shapes)[asked].sum())
+    vertices = float(shapely.get_num_coordinates(shapes[asked]).sum())
     (_open.get() or _Account()).take(per_vertex * vertices)
 
 
@@ -251,23 +251,29 @@ def spend_on_lines(lines: Geometries, *, each: bool = False) -> None:
     spend(count, self_crossings(lines, each=each) if count > FEW else 0.0, per_crossing=PER_SELF_CROSSING)
 
 
-def spend_on_growth(shapes: Geometries, reach: float) -> None:
+def spend_on_growth(shapes: Geometries, reach: float, close: float | None = None) -> None:
     """Take up the work of growing shapes, whose new outlines cross where strands lie nearer than both reach.
 
     Args:
         shapes: areas and lines.
         reach: how far they are grown, in their unit.
+        close: what :func:`close_strands` found, where that is known.
 
     Raises:
         TooLargeError: as :func:`spend`.
     """
     count = int(shapely.get_num_coordinates(shapes).sum())
-    close = _close_strands(shapes, abs(reach)) if count > FEW and reach else 0.0
-    spend(count, close, per_vertex=PER_GROWN_VERTEX)
+    spend(count, close_strands(shapes, reach) if close is None else close, per_vertex=PER_GROWN_VERTEX)
 
 
-def _close_strands(shapes: Geometries, reach: float) -> float:
-    """Return about how often vertices come near others of their shape that lie far off along the outline."""
+def close_strands(shapes: Geometries, reach: float) -> float:
+    """Return about how often vertices come near others of their shape that lie far off along the outline.
+
+    Of few it is not asked.
+    """
+    reach = abs(reach)
+    if not reach or shapely.get_num_coordinates(shapes).sum() <= FEW:
+        return 0.0
     xy, shape = shapely.get_coordinates(shapes, return_index=True)
     step = np.hypot(*np.diff(xy, axis=0, prepend=xy[:1]).T)
     step[np.append(True, shape[1:] != shape[:-1])] = 0.0

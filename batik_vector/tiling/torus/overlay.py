@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from typing import NamedTuple
 
 import numpy as np
 import shapely
@@ -19,6 +20,7 @@ from numpy.typing import NDArray
 
 from batik_vector.artwork import Geometries
 from batik_vector.geometry import work
+from batik_vector.tiling.torus.remembered import Asked, as_array, interned
 
 SPECK = 0.25
 """Grid cells: a hole smaller than this is no drawing."""
@@ -33,21 +35,37 @@ STEPWISE = 100_000
 MUCH = 2_000_000
 """Vertices of marks and of what is taken away from them that are overlaid at one go."""
 
-Brought = Callable[[NDArray[np.intp] | slice], Geometries]
+Brought = Callable[[NDArray[np.intp]], Geometries]
 """Brings the geometries of some rows to another place."""
 
 Again = Callable[[NDArray[np.intp]], shapely.Geometry | Geometries]
 """Makes the results of some rows again, on the grid."""
 
 
-def united(groups: Sequence[Geometries]) -> Geometries:
+class Made(NamedTuple):
+    """What came of an overlay: as GEOS made it, on the grid, and what it cost to make it again there.
+
+    The cost is in vertices, as :func:`batik_vector.geometry.work.spend` takes them up; 0 where it was not.
+    """
+
+    raw: shapely.Geometry
+    shape: shapely.Geometry
+    again: float
+
+
+def united(groups: Sequence[Geometries], known: Asked[Made] | None = None) -> Geometries:
     """Return the union of each group of areas: shape (n,).
+
+    Args:
+        groups: of areas.
+        known: the unions that are known; those that are not are made known.
 
     Raises:
         TooLargeError: where they are too large, or cross too often.
     """
+    known = unknown(len(groups)) if known is None else known
     work.foretell_union(groups)
-    joined = np.empty(len(groups), dtype=object)
+    joined = _raw(known)
     sizes = np.array([len(group) for group in groups], np.intp)
     all_areas = np.concatenate([np.empty(0, dtype=object), *groups])
     ends = np.cumsum(shapely.get_num_coordinates(all_areas))[np.cumsum(sizes) - 1]
@@ -59,19 +77,61 @@ def united(groups: Sequence[Geometries]) -> Geometries:
     for power in sorted(set(powers.tolist()) - {-1}):
         rows = np.flatnonzero(powers == power)
         for batch in work.batches(vertices[rows]):
-            part = rows[batch]
-            table = np.full((len(part), 2**power), None, dtype=object)
-            for row, group in zip(table, part.tolist(), strict=True):
-                row[: sizes[group]] = groups[group]
-            joined[part] = shapely.union_all(table, axis=1)
-            work.spend_on_union(np.concatenate([groups[row] for row in part.tolist()]), joined[part])
-
-    whole = _without_specks(joined)
+            part = rows[batch].tolist()
+            fresh = known.fresh(part)
+            if fresh:
+                table = np.full((len(fresh), 2**power), None, dtype=object)
+                for row, group in zip(table, fresh, strict=True):
+                    row[: sizes[group]] = groups[group]
+                joined[fresh] = shapely.union_all(table, axis=1)
+            work.spend_on_union(np.concatenate([groups[row] for row in part]), joined[part])
+    fresh = known.fresh()
+    whole = _without_specks(joined[fresh])
 
     def again(rows: NDArray[np.intp]) -> Geometries:
-        return np.array([_united_on_grid(groups[row], whole[row]) for row in rows.tolist()], dtype=object)
+        mine = [(groups[fresh[row]], whole[row]) for row in rows.tolist()]
+        return np.array([_united_on_grid(*each) for each in mine], dtype=object)
 
-    return _rounded(whole, again)
+    return _kept(known, joined, whole, again, lambda row, made: _grid_cost(groups[row], made))
+
+
+def unknown(count: int) -> Asked[Made]:
+    """Return as many overlays of which nothing is known, and nothing kept."""
+    return Asked(None, np.empty((count, 0), np.int64), ())
+
+
+def _raw(known: Asked[Made]) -> Geometries:
+    """Return overlays as GEOS made them, as far as they are known."""
+    return as_array([None if made is None else made.raw for made in known.found])
+
+
+def _kept(
+    known: Asked[Made],
+    raw: Geometries,
+    whole: Geometries,
+    again: Again,
+    cost: Callable[[int, shapely.Geometry], float],
+) -> Geometries:
+    """Return overlays on the grid; those that are fresh are rounded, and kept.
+
+    Args:
+        known: what is known.
+        raw: all overlays, as GEOS made them.
+        whole: the fresh ones, as they are to be rounded.
+        again: makes some of the fresh ones again.
+        cost: returns what it costs to make one again, by its row among all, given what was to be rounded.
+    """
+    for made in known.found:
+        if made is not None and made.again:
+            work.spend(made.again)
+    fresh = known.fresh()
+    shapes, torn = _rounding(whole, again)
+    costs = dict.fromkeys(fresh, 0.0) | {fresh[row]: cost(fresh[row], whole[row]) for row in torn.tolist()}
+    shapes = interned(shapes) if known.keeps else shapes
+    sizes = shapely.get_num_coordinates(raw[fresh]) + shapely.get_num_coordinates(shapes)
+    for row, shape, size in zip(fresh, shapes.tolist(), sizes.tolist(), strict=True):
+        known.keep(row, Made(raw[row], shape, costs[row]), size)
+    return as_array([made.shape for made in known.answers()])
 
 
 def _by_pairs(areas: Geometries) -> shapely.Geometry:
@@ -100,11 +160,20 @@ def _side_by_side(areas: Geometries) -> NDArray[np.intp]:
 
 def _united_on_grid(areas: Geometries, union: shapely.Geometry) -> shapely.Geometry:
     """Return the union of areas on the grid, given the one that lies between its points."""
-    many = max(int(shapely.get_num_coordinates(areas).sum()), int(shapely.get_num_coordinates(union)))
-    work.spend(many, per_vertex=work.PER_ROUNDED_VERTEX if many > MANY else work.PER_MENDED_VERTEX)
-    if many > MANY:
+    work.spend(_grid_cost(areas, union))
+    if _vertices(areas, union) > MANY:
         return shapely.set_precision(union, 1.0)
     return shapely.union_all(areas, grid_size=1.0)
+
+
+def _grid_cost(areas: Geometries, union: shapely.Geometry) -> float:
+    """Return what it costs to unite areas on the grid, in vertices."""
+    many = _vertices(areas, union)
+    return many * (work.PER_ROUNDED_VERTEX if many > MANY else work.PER_MENDED_VERTEX)
+
+
+def _vertices(areas: Geometries, union: shapely.Geometry) -> int:
+    return max(int(shapely.get_num_coordinates(areas).sum()), int(shapely.get_num_coordinates(union)))
 
 
 def _powers(sizes: NDArray[np.intp]) -> NDArray[np.intp]:
@@ -112,43 +181,67 @@ def _powers(sizes: NDArray[np.intp]) -> NDArray[np.intp]:
     return np.asarray(np.ceil(np.log2(np.maximum(sizes, 1))), np.intp)
 
 
-def less(marks: Geometries, away: Geometries, brought: Brought | None = None) -> Geometries:
+def less(
+    marks: Geometries, away: Geometries, brought: Brought | None = None, known: Asked[Made] | None = None
+) -> Geometries:
     """Return each mark without the area that stands in the same row.
 
     Args:
         marks, away: as many of each.
         brought: brings the areas of some rows to where they are taken away, a few at a time since they may
             be far larger than the marks; left out where they lie there.
+        known: what is known of what is left; what is not is made known.
 
     Raises:
         TooLargeError: where they are too large, or cross too often.
     """
-    left = np.empty(len(marks), dtype=object)
+    known = unknown(len(marks)) if known is None else known
+    left, numbers = _raw(known), np.arange(len(marks))
+
+    def there(rows: NDArray[np.intp]) -> Geometries:
+        return away[rows] if brought is None else brought(rows)
+
     for batch in work.batches(shapely.get_num_coordinates(marks) + shapely.get_num_coordinates(away), MUCH):
-        taken = away[batch] if brought is None else brought(batch)
-        left[batch] = shapely.difference(marks[batch], taken)
-        work.spend_on_cuts(marks[batch], taken, left[batch])
-    return _rounded(
-        left, lambda rows: _less_on_grid(marks[rows], away[rows] if brought is None else brought(rows))
+        fresh = np.array(known.fresh(numbers[batch].tolist()), np.intp)
+        left[fresh] = shapely.difference(marks[fresh], there(fresh))
+        work.spend_on_cuts(marks[batch], away[batch], left[batch])
+    fresh = np.array(known.fresh(), np.intp)
+
+    def again(rows: NDArray[np.intp]) -> Geometries:
+        mine = fresh[rows]
+        work.spend(sum(_cut_cost(marks[row], away[row]) for row in mine.tolist()))
+        return np.asarray(shapely.difference(marks[mine], there(mine), grid_size=1.0), dtype=object)
+
+    return _kept(known, left, left[fresh], again, lambda row, _: _cut_cost(marks[row], away[row]))
+
+
+def _cut_cost(mark: shapely.Geometry, away: shapely.Geometry) -> float:
+    """Return what it costs to cut a mark on the grid, in vertices."""
+    return float(
+        work.PER_MENDED_VERTEX * shapely.get_num_coordinates(mark) + shapely.get_num_coordinates(away)
     )
 
 
-def _less_on_grid(marks: Geometries, away: Geometries) -> Geometries:
-    work.spend(float(shapely.get_num_coordinates(marks).sum()), per_vertex=work.PER_MENDED_VERTEX)
-    work.spend(float(shapely.get_num_coordinates(away).sum()))
-    return np.asarray(shapely.difference(marks, away, grid_size=1.0), dtype=object)
-
-
 def within(areas: Geometries, window: shapely.Polygon) -> Geometries:
-    """Return what of each area lies in a window."""
-    work.spend(float(shapely.get_num_coordinates(areas).sum()), per_vertex=work.PER_CUTTER_VERTEX)
+    """Return what of each area lies in a window; the work is not counted."""
     inside = np.asarray(shapely.intersection(areas, window), dtype=object)
     return _rounded(inside, lambda rows: shapely.intersection(areas[rows], window, grid_size=1.0))
 
 
-def on_grid(areas: Geometries) -> Geometries:
-    """Return areas rounded to whole steps."""
-    return _rounded(areas, lambda rows: mended(areas[rows]))
+def grown(shapes: Geometries, reach: float, corners: int, known: Asked[Made]) -> Geometries:
+    """Return shapes grown by so many steps, with so many chords in a quarter circle; the work is not counted.
+
+    What is not known of them is made known.
+    """
+    raw, fresh = _raw(known), known.fresh()
+    if fresh:
+        raw[fresh] = shapely.buffer(shapes[fresh], reach, quad_segs=corners)
+    whole = raw[fresh]
+
+    def cost(_: int, body: shapely.Geometry) -> float:
+        return float(work.PER_MENDED_VERTEX * shapely.get_num_coordinates(body))
+
+    return _kept(known, raw, whole, lambda rows: mended(whole[rows]), cost)
 
 
 def mended(marks: Geometries) -> Geometries:
@@ -220,8 +313,13 @@ def _without_specks(areas: Geometries) -> Geometries:
 
 
 def _rounded(results: Geometries, again: Again) -> Geometries:
+    return _rounding(results, again)[0]
+
+
+def _rounding(results: Geometries, again: Again) -> tuple[Geometries, NDArray[np.intp]]:
+    """Return results on whole steps, and which of them had to be made again there."""
     if not len(results):
-        return results
+        return results, np.empty(0, np.intp)
     rounded = np.asarray(shapely.transform(results, lambda xy: np.floor(xy + 0.5)), dtype=object)
     # Where nothing moved nothing can have gone wrong.
     moved = np.flatnonzero(~shapely.equals_exact(rounded, results))
@@ -230,4 +328,4 @@ def _rounded(results: Geometries, again: Again) -> Geometries:
     rounded[sound] = shapely.remove_repeated_points(rounded[sound])
     if len(torn):
         rounded[torn] = again(torn)
-    return rounded
+    return rounded, torn

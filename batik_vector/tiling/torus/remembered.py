@@ -1,58 +1,175 @@
-"""Overlays remembered: what was made of the very same shapes before is not made again.
+"""Results remembered: what was made of the very same shapes before is not made again.
 
 Who turns one knob, or sweeps over one key, compiles a hundred tiles in which most shapes are those of the
-tile before, bit for bit. GEOS makes the same of the same, and so what it made is kept, by the bytes of what
-went in. The work is counted each time as it was the first: a recipe is refused everywhere or nowhere.
+tile before, bit for bit. GEOS makes the same of the same, and so what it made is kept row by row: the union
+of this group, what that cutter leaves of this mark. Shapes that are equal to the bit are one object here, and
+what is made of them is known by these objects and by whatever else it hangs on, such as where they lie.
+
+Nothing but geometries, which nobody can change, and plain values are kept. The work is counted each time as
+it was the first: a recipe is refused everywhere or nowhere.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
+import itertools
+import threading
+from collections import defaultdict
+from collections.abc import Callable, Hashable, Sequence
+from typing import Any, Generic, TypeAlias, TypeVar
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
 from batik_vector.artwork import Geometries
-from batik_vector.geometry import work
 
-KEPT, KEPT_VERTICES = 32, 20_000
-"""How many results are kept, and of how many vertices the shapes may be that they were made of."""
+KEPT_BYTES = 64_000_000
+"""About how much memory what is remembered may take up."""
 
-Arrays = tuple[NDArray[Any], ...]
+KEPT_VERTICES = 200_000
+"""Shapes of more vertices together are not remembered: they would drive out all others."""
 
-_known: dict[tuple[object, ...], tuple[work.Share, Arrays]] = {}
+PER_ENTRY, PER_VERTEX = 300, 16
+"""About how many bytes an entry takes up with its key, and each vertex of a shape."""
+
+Made = TypeVar("Made")
+Identities = NDArray[np.int64]
 
 
-def remembered(how: tuple[object, ...], shapes: Geometries, make: Callable[[], Arrays]) -> Arrays:
-    """Return what is made of shapes: arrays, each caller's own.
+Shelf: TypeAlias = dict[Any, tuple[Any, int]]
+"""What is kept of one kind: by its key the value, and about how many bytes it takes up."""
+
+
+class Memory:
+    """Dictionaries of bounded size in two generations: what the younger one lacks is looked up in the older.
+
+    When the younger one is half of all that may be kept it becomes the older one, and what nobody asked for
+    meanwhile goes.
+    """
+
+    def __init__(self, most: int) -> None:
+        self.most = most
+        self._lock = threading.Lock()
+        self.clear()
+
+    def clear(self) -> None:
+        """Forget everything."""
+        self._young: defaultdict[Hashable, Shelf] = defaultdict(dict)
+        self._old: defaultdict[Hashable, Shelf] = defaultdict(dict)
+        self._held = 0
+
+    def __len__(self) -> int:
+        kinds = self._young.keys() | self._old.keys()
+        return sum(len(self._young[kind].keys() | self._old[kind].keys()) for kind in kinds)
+
+    def get(self, kind: Hashable, keys: Sequence[Any]) -> list[Any]:
+        """Return what is kept under each of some keys, or None."""
+        young, old = self._young[kind], self._old.get(kind, {})
+        found: list[Any] = [each and each[0] for each in map(young.get, keys)]
+        for number, each in enumerate(found) if old else ():
+            if each is None and (entry := old.get(keys[number])) is not None:
+                self._keep(kind, keys[number], entry)
+                found[number] = entry[0]
+        return found
+
+    def keep(self, kind: Hashable, key: Any, value: Any, size: int) -> None:
+        """Keep a value, which is not None, of about so many bytes."""
+        self._keep(kind, key, (value, size + PER_ENTRY))
+
+    def _keep(self, kind: Hashable, key: Any, entry: tuple[Any, int]) -> None:
+        with self._lock:
+            self._young[kind][key] = entry
+            self._held += entry[1]
+            if self._held > self.most / 2:
+                self._old, self._young, self._held = self._young, defaultdict(dict), 0
+
+
+_memory = Memory(KEPT_BYTES)
+
+
+def clear() -> None:
+    """Forget everything."""
+    _memory.clear()
+
+
+def interned(shapes: Geometries) -> Geometries:
+    """Return shapes, each as the one object that stands for all that equal it to the bit."""
+    found = shapes.tolist()
+    known = _memory.get("object", list(map(id, found)))
+    fresh = [row for row, each in enumerate(known) if each is None]
+    if not fresh:
+        return shapes
+    written = shapely.to_wkb(shapes[fresh]).tolist()
+    for row, key, shape in zip(fresh, written, _memory.get("shape", written), strict=True):
+        # Of several that are equal the first is kept, and found by those that follow.
+        kept = _memory.get("shape", (key,))[0] if shape is None else shape
+        if kept is None:
+            kept = found[row]
+            _memory.keep("shape", key, kept, 2 * len(key))
+            _memory.keep("object", id(kept), kept, 0)
+        found[row] = kept
+    return as_array(found)
+
+
+def identities(shapes: Geometries) -> Identities:
+    """Return for each shape a number that stands for the object, as long as that is held."""
+    return np.fromiter(map(id, shapes.tolist()), np.int64, len(shapes))
+
+
+class Asked(Generic[Made]):
+    """What is asked of some shapes, row by row, and what is known of it.
 
     Args:
-        how: what is made of them, and all that it hangs on beside the shapes.
-        shapes: what it is made of.
-        make: makes it, and counts its work.
-
-    Raises:
-        TooLargeError: where the work comes to too much.
+        how: what is made of them, and all that it hangs on beside the rows.
+        rows: whole numbers, shape (m, c): :func:`identities` of interned shapes, and all else that matters.
+        shapes: those whose identities the rows have. They are held as long as what is made of them.
+        ends: where each run of rows begins that is one question, and where the last ends; each row is one
+            where left out.
     """
-    before = work.counted()
-    if before is None or not len(shapes) or shapely.get_num_coordinates(shapes).sum() > KEPT_VERTICES:
-        return make()
-    # In WKB a shape says itself how long it is.
-    key = (*how, b"".join(shapely.to_wkb(shapes)))
-    if key in _known:
-        share, found = _known[key]
-        work.spend_again(share)
-        return _copies(found)
-    found = make()
-    spent, vertices, crossings, pairs = np.subtract(work.counted() or before, before).tolist()
-    _known[key] = (spent, vertices, crossings, pairs), _copies(found)
-    while len(_known) > KEPT:
-        _known.pop(next(iter(_known)), None)
-    return found
+
+    def __init__(
+        self,
+        how: Hashable,
+        rows: Identities,
+        shapes: Sequence[Geometries],
+        ends: NDArray[np.int64] | None = None,
+    ) -> None:
+        self._how, self._shapes = how, shapes
+        self._ends = list(range(len(rows) + 1)) if ends is None else ends.tolist()
+        self.keeps = how is not None
+        """Whether anything is known, and kept: not where ``how`` is None."""
+        self.found: list[Made | None] = [None] * (len(self._ends) - 1)
+        if self.keeps:
+            raw, width = np.ascontiguousarray(rows).tobytes(), rows.shape[1] * rows.itemsize
+            places = [end * width for end in self._ends]
+            self._keys = [raw[first:last] for first, last in itertools.pairwise(places)]
+            known = _memory.get(how, self._keys)
+            self.found = [None if each is None else each[0] for each in known]
+
+    def fresh(self, rows: Sequence[int] | None = None) -> list[int]:
+        """Return which questions have no answer yet: of all, or of some."""
+        return [row for row in (range(len(self.found)) if rows is None else rows) if self.found[row] is None]
+
+    def keep(self, row: int, made: Made, vertices: int = 0) -> None:
+        """Take up the answer to a question: what was made, which has about so many vertices."""
+        self.found[row] = made
+        if not self.keeps:
+            return
+        first, last = self._ends[row : row + 2]
+        held = [shape for each in self._shapes for shape in each[first:last].tolist()]
+        _memory.keep(self._how, self._keys[row], (made, *held), vertices * PER_VERTEX)
+
+    def answers(self, make: Callable[[list[int]], Sequence[Made]] | None = None) -> list[Made]:
+        """Return all answers; those that are not known yet are made."""
+        fresh = self.fresh()
+        if fresh and make is not None:
+            for row, made in zip(fresh, make(fresh), strict=True):
+                self.keep(row, made)
+        return self.found  # type: ignore[return-value]
 
 
-def _copies(arrays: Arrays) -> Arrays:
-    """Return copies: shapely before 2.2 takes nothing apart that may not be written."""
-    return tuple(each.copy() for each in arrays)
+def as_array(found: Sequence[Any]) -> Geometries:
+    """Return objects as an array."""
+    made = np.empty(len(found), dtype=object)
+    made[:] = found
+    return made

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from batik_vector.artwork import Geometries
 from batik_vector.errors import TooLargeError
+from batik_vector.geometry import work
 from batik_vector.geometry.ragged import Ragged
 from batik_vector.tiling.torus import overlay
 from batik_vector.units import STEPS_PER_MM
@@ -189,10 +190,14 @@ def _spread(first: Steps, last: Steps) -> tuple[NDArray[np.intp], Steps]:
 
 def translate(marks: Geometries, shift: NDArray[Any]) -> Geometries:
     """Return each mark moved by its own shift, shape (n, 2): exact on whole grid steps."""
-    if not shift.any():
+    # What stays where it is stays the same object.
+    moved = np.flatnonzero(shift.any(axis=1))
+    if not len(moved):
         return marks
-    coords, owner = shapely.get_coordinates(marks, return_index=True)
-    return np.asarray(shapely.set_coordinates(marks.copy(), coords + shift[owner]), dtype=object)
+    found = marks.copy()
+    coords, owner = shapely.get_coordinates(found[moved], return_index=True)
+    found[moved] = shapely.set_coordinates(found[moved], coords + shift[moved][owner])
+    return found
 
 
 def clip_areas(
@@ -200,6 +205,8 @@ def clip_areas(
 ) -> tuple[Geometries, NDArray[np.intp]]:
     """Cut polygons (grid steps) to the window; those wholly inside are untouched."""
     inside, crossing = _inside_and_crossing(areas, window)
+    crossed = float(shapely.get_num_coordinates(areas[crossing]).sum())
+    work.spend(crossed, per_vertex=work.PER_CUTTER_VERTEX)
     split, split_names = _split_polygons(areas[crossing], window), names[crossing]
     # Rounding a crossing may fold a needle over itself, and an overlay of what is invalid may flood the
     # whole window.

@@ -23,9 +23,13 @@ from batik_vector.geometry.congruence import alike, different, same_points
 from batik_vector.geometry.outlines import Index, Outlines, Steps, of_polygons, runs, to_polygons
 from batik_vector.geometry.ragged import Ragged
 from batik_vector.geometry.regions import oriented
+from batik_vector.tiling.torus.remembered import KEPT_VERTICES, Asked, identities, interned
 from batik_vector.tiling.torus.torus import polygons_of, to_step_grid, translate
 from batik_vector.units import STEPS_PER_MM
 from batik_vector.values import frozen
+
+FEW_PAIRS = 250_000
+"""Pairs of bounds that are compared one with the other: sooner done than a tree."""
 
 Predicate = Callable[[Geometries, Geometries], NDArray[np.bool_]]
 
@@ -110,15 +114,26 @@ class SetDown(NamedTuple):
 
 
 class Stock:
-    """All shapes of a tile that are different, as far as is known; it only grows."""
+    """All shapes of a tile that are different, as far as is known; it only grows.
 
-    def __init__(self) -> None:
+    Args:
+        remembers: whether what is made of its shapes is kept for other tiles, as long as they are few.
+    """
+
+    def __init__(self, *, remembers: bool = False) -> None:
         self.shapes: Geometries = np.empty(0, dtype=object)
         self._bounds: Steps = np.empty((0, 4), np.int64)
+        self.remembers = remembers
+        self._vertices = 0
 
     def add(self, areas: Geometries) -> Copies:
         """Take up areas as they stand, each as a shape of its own."""
         first = len(self.shapes)
+        if self.remembers:
+            self._vertices += int(shapely.get_num_coordinates(areas).sum())
+            self.remembers = self._vertices <= KEPT_VERTICES
+        if self.remembers:
+            areas = interned(areas)
         self.shapes = np.concatenate([self.shapes, areas])
         self._bounds = np.vstack([self._bounds, shapely.bounds(areas).astype(np.int64).reshape(-1, 4)])
         return Copies(np.arange(first, len(self.shapes)), np.zeros((len(areas), 2), np.int64))
@@ -210,6 +225,10 @@ class Stock:
         """
         if not len(a) or not len(b):
             return np.empty(0, np.intp), np.empty(0, np.intp)
+        if len(a) * len(b) <= FEW_PAIRS:
+            mine, other = _meeting_bounds(self.bounds(a), self.bounds(b))
+            work.spend_on_pairs(len(mine))
+            return mine, other
         tree, asked = shapely.STRtree(_diagonals(self.bounds(b))), _diagonals(self.bounds(a))
         work.refuse_pairs(tree, asked)
         mine, other = tree.query(asked)
@@ -228,14 +247,36 @@ class Stock:
         else:
             kinds = np.concatenate([a.kind[heads], b.kind[heads]])
             work.spend_on_asking(self.shapes, kinds, work.PER_RELATED_VERTEX)
-        first, second = self._each(a.taken(heads)), self._each(b.taken(heads))
+        a, b = a.taken(heads), b.taken(heads)
+        if not self.remembers:
+            return self._ask(predicate, a, b)[number]
+        one, other = self.shapes[a.kind], self.shapes[b.kind]
+        rows = np.column_stack([identities(one), identities(other), a.shift, b.shift])
+        asked = Asked[bool](predicate, rows, (one, other))
+
+        def ask(rows: list[int]) -> list[bool]:
+            fresh = np.array(rows)
+            found: list[bool] = self._ask(predicate, a.taken(fresh), b.taken(fresh)).tolist()
+            return found
+
+        return np.array(asked.answers(ask), bool)[number]
+
+    def _ask(self, predicate: Predicate, a: Copies, b: Copies) -> NDArray[np.bool_]:
+        first, second = self._each(a), self._each(b)
         shapely.prepare(first)
-        return np.asarray(predicate(first, second)[number])
+        return np.asarray(predicate(first, second))
 
     def _each(self, copies: Copies) -> Geometries:
         """Return copies as polygons, those that are the same copy as one and the same."""
         heads, number = alike(np.column_stack([copies.kind, copies.shift]))
         return self.geometries(copies.taken(heads))[number]
+
+
+def _meeting_bounds(a: Steps, b: Steps) -> tuple[Index, Index]:
+    """Return the pairs of bounds, one of each, that have a point in common."""
+    (ax, ay, ar, at), (bx, by, br, bt) = a.T[:, :, None], b.T[:, None]
+    mine, other = np.nonzero((ax <= br) & (bx <= ar) & (ay <= bt) & (by <= at))
+    return mine, other
 
 
 def _diagonals(bounds: Steps) -> Geometries:

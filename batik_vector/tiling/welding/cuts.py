@@ -14,6 +14,7 @@ from batik_vector.artwork import Geometries
 from batik_vector.geometry.congruence import alike
 from batik_vector.geometry.outlines import Index, Offsets, Steps
 from batik_vector.tiling.torus import overlay
+from batik_vector.tiling.torus.remembered import Asked, identities, interned
 from batik_vector.tiling.torus.torus import Lattice, Window, reduced, translate, translates
 from batik_vector.tiling.welding.congruent import Copies, Stock
 from batik_vector.tiling.welding.sheets import Laid, joined
@@ -41,9 +42,13 @@ def cut(stock: Stock, marks: Laid, cutters: Laid, lattice: Lattice) -> Laid:
     heads, row = alike(asked)
     taken, there = away[asked[heads, 1]], asked[heads, 2:]
     # A mark stays where it is: what is cut alike must be rounded alike, in every tile and cloth.
-    left = overlay.less(
-        stock.shapes[asked[heads, 0]], taken, lambda rows: translate(taken[rows], there[rows])
-    )
+    cut_marks = stock.shapes[asked[heads, 0]]
+    known = None
+    if stock.remembers:
+        taken = interned(taken)
+        rows = np.column_stack([identities(cut_marks), identities(taken), there])
+        known = Asked[overlay.Made]("less", rows, (cut_marks, taken))
+    left = overlay.less(cut_marks, taken, lambda rows: translate(taken[rows], there[rows]), known)
     down = stock.set_down(left, row, given.copies.shift[which])
     whole = np.ones(len(marks.sheet), bool)
     whole[which] = False

@@ -8,7 +8,7 @@ import shapely
 from batik_vector.artwork import Geometries
 from batik_vector.geometry import work
 from batik_vector.tiling.torus import overlay
-from batik_vector.tiling.torus.remembered import remembered
+from batik_vector.tiling.torus.remembered import KEPT_VERTICES, Asked, identities, interned
 from batik_vector.units import STEPS_PER_MM
 
 PLAIN_CORNERS = 8
@@ -53,10 +53,13 @@ def grown_on_grid(shapes: Geometries, reach: float, corners: int = PLAIN_CORNERS
     if not reach:
         return shapes
 
-    def grow() -> tuple[Geometries]:
-        work.spend_on_growth(shapes, reach * STEPS_PER_MM)
-        bodies = shapely.buffer(shapes, reach * STEPS_PER_MM, quad_segs=corners)
-        return (overlay.on_grid(np.asarray(bodies, dtype=object)),)
-
-    (found,) = remembered(("grown", reach, corners), shapes, grow)
-    return found
+    steps = reach * STEPS_PER_MM
+    if shapely.get_num_coordinates(shapes).sum() > KEPT_VERTICES:
+        work.spend_on_growth(shapes, steps)
+        return overlay.grown(shapes, steps, corners, overlay.unknown(len(shapes)))
+    shapes = interned(shapes)
+    rows = identities(shapes)[:, None]
+    all_rows = np.array([0, len(rows)])
+    close = Asked[float](("close strands", reach), rows, (shapes,), all_rows)
+    work.spend_on_growth(shapes, steps, *close.answers(lambda _: [work.close_strands(shapes, steps)]))
+    return overlay.grown(shapes, steps, corners, Asked(("grown", reach, corners), rows, (shapes,)))

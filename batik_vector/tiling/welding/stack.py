@@ -79,7 +79,7 @@ def assemble(
         TooLargeError: with the estimate, where the marks reach over too many repeats.
         SeamError: where opposite edges disagree however the seam is placed.
     """
-    stock = Stock()
+    stock = Stock(remembers=True)
     pile = Pile(sheets, stock, tolerance, _farthest(lattice, tolerance))
     _refuse_too_many(pile, cell, lattice)
     left = _cut(pile, lattice)

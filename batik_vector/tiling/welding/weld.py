@@ -17,6 +17,7 @@ from batik_vector.geometry.congruence import alike
 from batik_vector.geometry.outlines import Index, Offsets, Steps, runs
 from batik_vector.geometry.sampling import Indices
 from batik_vector.tiling.torus import overlay
+from batik_vector.tiling.torus.remembered import Asked, identities
 from batik_vector.tiling.welding.congruent import Copies, Stock, together
 
 ROUNDS = 6
@@ -148,8 +149,19 @@ def unions(stock: Stock, rows: Steps, offsets: Offsets, which: Index) -> Geometr
     result = areas[ends[:-1]]
     several = np.flatnonzero(np.diff(ends) > 1)
     if len(several):
-        result[several] = overlay.united([areas[ends[row] : ends[row + 1]] for row in several])
+        groups = [areas[ends[row] : ends[row + 1]] for row in several]
+        result[several] = overlay.united(groups, _asked(stock, rows[members], ends, several))
     return result
+
+
+def _asked(stock: Stock, rows: Steps, ends: Offsets, several: Index) -> Asked[overlay.Made] | None:
+    """Return what is known of the unions of some runs of rows."""
+    if not stock.remembers:
+        return None
+    members, within = runs(ends, several)
+    shapes = stock.shapes[rows[members, 0]]
+    table = np.column_stack([identities(shapes), rows[members, 1:]])
+    return Asked("united", table, (shapes,), within)
 
 
 def meeting(areas: Geometries) -> Indices:

@@ -12,10 +12,11 @@ import shapely
 from numpy.typing import NDArray
 
 from batik_vector.artwork import Cell, DropAxis, Geometries
+from batik_vector.geometry import work
 from batik_vector.geometry.congruence import alike
 from batik_vector.geometry.outlines import Index, runs
 from batik_vector.tiling.torus import overlay, seams
-from batik_vector.tiling.torus.remembered import remembered
+from batik_vector.tiling.torus.remembered import Asked, as_array, identities, interned
 from batik_vector.tiling.torus.torus import (
     Lattice,
     Steps,
@@ -55,7 +56,7 @@ class Torus:
         self.stock, self.cell, self.lattice, self.phase = stock, cell, lattice, phase
         self.window = Window(0, 0, cell.columns, cell.rows)
         self.borders: list[tuple[str, int, int, int]] = []
-        self._crossing: list[Geometries] = []
+        self._crossing: list[Copies] = []
         self._ends: dict[str, Places] = {}
 
     def areas(self, marks: Copies) -> tuple[Copies, Index]:
@@ -78,15 +79,37 @@ class Torus:
         """Cut at the edges what reaches them; several marks at one place are cut once."""
         rows = np.column_stack([marks.kind, marks.shift])
         heads, row = alike(rows)
-        shapes = self.stock.geometries(marks.taken(heads))
-        self._crossing.append(shapes)
-        pieces, of = remembered(
-            ("clipped", self.window), shapes, lambda: clip_areas(shapes, np.arange(len(shapes)), self.window)
-        )
-        order = np.argsort(of, kind="stable")
-        which, starts = runs(np.searchsorted(of[order], np.arange(len(shapes) + 1)), row)
+        marks_once = marks.taken(heads)
+        self._crossing.append(marks_once)
+        pieces, ends = self._pieces(marks_once)
+        which, starts = runs(ends, row)
         each = np.repeat(np.arange(len(marks)), np.diff(starts))
-        return self.stock.taken_up(pieces[order]).taken(which), each
+        return self.stock.taken_up(pieces).taken(which), each
+
+    def _pieces(self, marks: Copies) -> tuple[Geometries, Index]:
+        """Return what of copies lies in the cell, one after another, and where the pieces of each begin."""
+        if not self.stock.remembers:
+            return self._cut_off(marks)
+        shapes = self.stock.shapes[marks.kind]
+        rows = np.column_stack([identities(shapes), marks.shift])
+        known = Asked[list[shapely.Polygon]](("clipped", self.window), rows, (shapes,))
+        vertices = shapely.get_num_coordinates(shapes)
+        fresh = known.fresh()
+        work.spend(float(vertices.sum() - vertices[fresh].sum()), per_vertex=work.PER_CUTTER_VERTEX)
+        if fresh:
+            pieces, ends = self._cut_off(marks.taken(np.array(fresh)))
+            cut = interned(pieces).tolist()
+            for row, first, last in zip(fresh, ends[:-1].tolist(), ends[1:].tolist(), strict=True):
+                known.keep(row, cut[first:last], vertices[row])
+        answers = known.answers()
+        return as_array([piece for each in answers for piece in each]), np.cumsum([0, *map(len, answers)])
+
+    def _cut_off(self, marks: Copies) -> tuple[Geometries, Index]:
+        """Do the work of :meth:`_pieces`."""
+        shapes = self.stock.geometries(marks)
+        pieces, of = clip_areas(shapes, np.arange(len(marks)), self.window)
+        order = np.argsort(of, kind="stable")
+        return pieces[order], np.searchsorted(of[order], np.arange(len(marks) + 1))
 
     def lines(self, marks: Geometries, sheet: int, ink: str, reach: float) -> Lines:
         """Wrap polylines in mm and cut them at the edges.
@@ -226,7 +249,7 @@ class Torus:
     @property
     def _allowed(self) -> NDArray[np.int64]:
         """The edges of marks that run along the seam themselves, as (axis, from, to)."""
-        return seams.on_seam(np.concatenate([np.empty(0, dtype=object), *self._crossing]), self.window)
+        return seams.on_seam(self.stock.geometries(together(self._crossing)), self.window)
 
 
 def _overlap(areas: Geometries) -> bool:
