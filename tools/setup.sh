@@ -183,7 +183,7 @@ clients_ready() {
         ! command -v $name >/dev/null || browser=$name:chromium
     done
     programs_ready inkscape:inkscape librecad:librecad qpdf:qpdf pdftocairo:poppler-utils mutool:mupdf-tools \
-        gs:ghostscript hp2xx:hp2xx $browser
+        gs:ghostscript hp2xx:hp2xx rsvg-convert:librsvg2-bin $browser
     # An interpreter of G-code; not every distribution has it.
     (programs_ready rs274:linuxcnc-uspace) || say "LinuxCNC cannot be installed: its tests will say so"
     (programs_ready openscad:openscad) || say "OpenSCAD cannot be installed: its test will say so"

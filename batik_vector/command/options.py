@@ -23,7 +23,7 @@ class Finite(click.FloatRange):
         return number
 
 
-FORMATS = ("svg", "pdf", "dxf", "hpgl", "gcode", "png", "tiff")
+FORMATS = ("svg", "pdf", "dxf", "hpgl", "gcode", "png", "tiff", "swatch", "gpl", "ase")
 """As in :data:`batik_vector.export.FORMATS`, which a test compares."""
 
 

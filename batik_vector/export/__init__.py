@@ -28,11 +28,13 @@ from batik_vector.export.options import (
     GcodeOptions,
     HpglOptions,
     Pages,
+    PaletteOptions,
     PdfInks,
     PdfOptions,
     PngOptions,
     Profile,
     SvgOptions,
+    SwatchOptions,
     TiffOptions,
     Turn,
 )
@@ -51,11 +53,13 @@ __all__ = [
     "GcodeOptions",
     "HpglOptions",
     "Pages",
+    "PaletteOptions",
     "PdfInks",
     "PdfOptions",
     "PngOptions",
     "Profile",
     "SvgOptions",
+    "SwatchOptions",
     "TiffOptions",
     "Turn",
     "format_of",
@@ -128,6 +132,15 @@ FORMATS: Mapping[str, Format] = MappingProxyType(
         "png": Format(".png", PngOptions, "a preview for the screen", "batik_vector.export.png"),
         "tiff": Format(
             ".tiff", TiffOptions, "plates of one bit, one for each ink", "batik_vector.export.tiff"
+        ),
+        "swatch": Format(
+            "-swatch.svg", SwatchOptions, "a pattern to fill shapes with", "batik_vector.export.swatch"
+        ),
+        "gpl": Format(
+            ".gpl", PaletteOptions, "the inks as a palette for Inkscape, GIMP", "batik_vector.export.gpl"
+        ),
+        "ase": Format(
+            ".ase", PaletteOptions, "the inks as swatches for Illustrator", "batik_vector.export.ase"
         ),
     }
 )

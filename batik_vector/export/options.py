@@ -141,6 +141,34 @@ class SvgOptions:
 
 
 @frozen
+class SwatchOptions:
+    """Options of swatches."""
+
+    profile: Annotated[Profile, Says("one path per mark (editable) or per ink (compact)")] = Profile.EDITABLE
+    curves: Annotated[Curves, Says("vertices as they are (polyline) or fitted Béziers (bezier)")] = (
+        Curves.POLYLINE
+    )
+    curve_tolerance: Annotated[
+        Annotated[Length, Between(0.0005, 10)] | None,
+        Says("how far fitted curves may stray; the artwork's tolerance if unset"),
+    ] = None
+    cloth: Annotated[bool, Says("fill the ground with the cloth's colour")] = True
+
+    def __post_init__(self) -> None:
+        check(self)
+
+
+@frozen
+class PaletteOptions:
+    """Options of palettes."""
+
+    cloth: Annotated[bool, Says("begin with the cloth's colour")] = True
+
+    def __post_init__(self) -> None:
+        check(self)
+
+
+@frozen
 class PdfOptions:
     """Options of PDF."""
 

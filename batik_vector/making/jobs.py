@@ -202,7 +202,8 @@ def _unmet(job: Job, output: OutputSpec, where: str) -> Fault | None:
 def _file_name(job: Job, output: OutputSpec) -> str:
     stem = job.stem or stem_of(job.source)
     if not job.stem and is_compiled(job.source):
-        # A compiled file is called after its recipe and its output: kawung-print.pdf.
+        # A compiled file is called after its recipe and its output: kawung-print.pdf, kawung-swatch.svg.
+        stem = stem.removesuffix(Path(FORMATS["swatch"].suffix).stem)
         endings = sorted((_ending(job.recipe, each) for each in job.recipe.output), key=len)
         stem = stem.removesuffix(next((end for end in reversed(endings) if stem.endswith(end)), ""))
     return f"{stem}{_ending(job.recipe, output)}{FORMATS[output.format].suffix}"

@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Any, BinaryIO, TypeAlias
 
 from batik_vector.artwork import Artwork, Cell, Page
 from batik_vector.errors import Fault, GeometryError, RecipeError
-from batik_vector.export import FORMATS, write_page
+from batik_vector.export import FORMATS, swatch, write_page
 from batik_vector.machines.profile import Machine
 from batik_vector.recipe.drawing import Svg
 from batik_vector.recipe.model import OutputSpec, Recipe
-from batik_vector.recipe.outputs import Piece
+from batik_vector.recipe.outputs import Piece, SwatchOutput
 from batik_vector.units import STEPS_PER_MM
 from batik_vector.values import frozen
 
@@ -222,9 +222,16 @@ def _keyed(key: str) -> Iterator[None]:
         raise RecipeError([Fault(words, f"{key}.{name}" if name else key)]) from error
 
 
+def _extent(tile: Artwork, output: OutputSpec) -> tuple[tuple[int, int], float]:
+    """Return how many tiles across and up an output shows, and how far (mm) they go on beyond."""
+    if isinstance(output, SwatchOutput):
+        return swatch.repeats(tile.cell), swatch.overscan(tile.cell)
+    return getattr(output, "repeat", (1, 1)), getattr(output, "bleed", 0.0)
+
+
 def _set_out(tile: Artwork, output: OutputSpec) -> Page:
-    across, up = getattr(output, "repeat", (1, 1))
-    bleed, marks = getattr(output, "bleed", 0.0), getattr(output, "marks", False)
+    (across, up), bleed = _extent(tile, output)
+    marks = getattr(output, "marks", False)
     # What a machine is to follow is not drawn twice.
     whole = getattr(output, "wraps", False) and not output.process
     whole = whole and any(len(layer.lines) for layer in tile.layers)
@@ -249,8 +256,7 @@ def size_of(page: Page, output: OutputSpec) -> list[float]:
     marks = getattr(output, "marks", False)
     if not isinstance(page, Artwork):
         return page_size(_marked(page) if marks else page)
-    across, up = getattr(output, "repeat", (1, 1))
-    bleed = getattr(output, "bleed", 0.0)
+    (across, up), bleed = _extent(page, output)
     width, height = page.cell.width * across, page.cell.height * up
     if marks:
         from batik_vector.tiling.cloth.print_marks import marked_margins
@@ -259,6 +265,9 @@ def size_of(page: Page, output: OutputSpec) -> list[float]:
         margins = marked_margins(field, bleed, page.title, [each.ink.name for each in page.layers])
         beside, below = margins.left + margins.right, margins.bottom + margins.top
         return [round(width + beside / STEPS_PER_MM, 3), round(height + below / STEPS_PER_MM, 3)]
+    if isinstance(output, SwatchOutput):
+        # Of a swatch it is what repeats that one asks for.
+        return [round(width, 3), round(height, 3)]
     return [round(width + 2 * bleed, 3), round(height + 2 * bleed, 3)]
 
 

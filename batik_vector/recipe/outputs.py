@@ -11,10 +11,12 @@ from batik_vector.export.options import (
     DxfOptions,
     GcodeOptions,
     HpglOptions,
+    PaletteOptions,
     PdfInks,
     PdfOptions,
     PngOptions,
     SvgOptions,
+    SwatchOptions,
     TiffOptions,
 )
 from batik_vector.fields import HIDDEN, Alone, Between, Length, OneOf, Says, Text, check
@@ -186,9 +188,45 @@ class TiffOutput(OutputSpec, TiffOptions):
             object.__setattr__(self, "process", (*self.process, SeparateProcess()))
 
 
+@frozen(kw_only=True)
+class SwatchOutput(OutputSpec, SwatchOptions):
+    """A swatch: an SVG whose tile is a pattern, for Inkscape and Illustrator to fill shapes with."""
+
+    format = "swatch"
+    writer = SwatchOptions
+    piece: Annotated[Piece | None, Says("the tile: a cloth is no pattern")] = Piece.TILE
+
+
+@frozen(kw_only=True)
+class GplOutput(OutputSpec, PaletteOptions):
+    """The inks as a palette of GIMP and Inkscape."""
+
+    format = "gpl"
+    writer = PaletteOptions
+
+
+@frozen(kw_only=True)
+class AseOutput(OutputSpec, PaletteOptions):
+    """The inks as Adobe Swatch Exchange, for Illustrator and Photoshop."""
+
+    format = "ase"
+    writer = PaletteOptions
+
+
 OUTPUTS: dict[str, type[OutputSpec]] = {
     output.format: output
-    for output in (SvgOutput, PdfOutput, DxfOutput, HpglOutput, GcodeOutput, PngOutput, TiffOutput)
+    for output in (
+        SvgOutput,
+        PdfOutput,
+        DxfOutput,
+        HpglOutput,
+        GcodeOutput,
+        PngOutput,
+        TiffOutput,
+        SwatchOutput,
+        GplOutput,
+        AseOutput,
+    )
 }
 """The catalogue of formats that a recipe may ask for."""
 

@@ -141,7 +141,7 @@ def inside(name: str, dpi: int) -> Mask:
     columns, rows = (int(side // step) for side in (whole.cell.width, whole.cell.height))
     x = np.broadcast_to((np.arange(columns) + 0.5) * step, (rows, columns))
     y = whole.cell.height - np.broadcast_to(((np.arange(rows) + 0.5) * step)[:, None], (rows, columns))
-    found = _to_seam(x, y, tile(name).cell) <= NEAR * step
+    found = to_seam(x, y, tile(name).cell) <= NEAR * step
     page = shapely.box(0, 0, whole.cell.width, whole.cell.height)
     (layer,) = whole.layers
     core = shapely.buffer(shapely.intersection(shapely.union_all(layer.areas), page), -NEAR * step)
@@ -150,7 +150,7 @@ def inside(name: str, dpi: int) -> Mask:
     return found
 
 
-def _to_seam(x: NDArray[np.float64], y: NDArray[np.float64], cell: Cell) -> NDArray[np.float64]:
+def to_seam(x: NDArray[np.float64], y: NDArray[np.float64], cell: Cell) -> NDArray[np.float64]:
     """Return how far points (mm) lie from an edge of the tile that they stand in."""
     slip_y, slip_x = cell.lattice[0][1] / STEPS_PER_MM, cell.lattice[1][0] / STEPS_PER_MM
     u = (x - slip_x * np.floor(y / cell.height)) / cell.width

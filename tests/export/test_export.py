@@ -69,7 +69,7 @@ def test_bytes_depend_on_no_hash_seed_zone_locale_or_folder(tmp_path: Path) -> N
     assert seen.pop().count(b"\n") == len(FORMATS)
 
 
-@pytest.mark.parametrize("format", FORMATS)
+@pytest.mark.parametrize("format", sorted(FORMATS.keys() - {"swatch"}))
 def test_files_are_written_by_suffix(tmp_path: Path, format: str) -> None:
     path = write_artwork(empty(), tmp_path / f"A{FORMATS[format].suffix.upper()}")
     assert path.read_bytes() == render(empty(), format)
@@ -175,7 +175,7 @@ def test_an_artwork_that_breaks_the_normal_form_is_refused(
 def test_an_artwork_is_written_as_it_is_where_that_is_asked_for(tmp_path: Path) -> None:
     bow_tie = raw(shapely.Polygon([(1, 1), (4, 4), (4, 1), (1, 4)]))
     for format in FORMATS:
-        path = write_artwork(bow_tie, tmp_path / f"a.{format}", check=False)
+        path = write_artwork(bow_tie, tmp_path / f"a.{format}", format, check=False)
         sink = io.BytesIO()
         write_page(bow_tie, sink, format, check=False)
         assert path.read_bytes() == sink.getvalue() == render(bow_tie, format, check=False)

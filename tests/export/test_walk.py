@@ -64,7 +64,7 @@ def test_repeating_closes_the_closed_only() -> None:
     assert (points[-1] == [9000, 5250]).all()
 
 
-@pytest.mark.parametrize("format", FORMATS)
+@pytest.mark.parametrize("format", sorted(FORMATS.keys() - {"gpl", "ase"}))
 @pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf, 1e9, 1e300])
 def test_no_format_writes_what_is_no_place(format: str, bad: float) -> None:
     artwork = sample()
