@@ -103,8 +103,8 @@ class Format:
         import_module(self.module).write(page, sink, options)
 
     def divides(self, options: Any) -> bool:
-        """Return whether a page may be divided over several files."""
-        return getattr(options, "pages", None) is Pages.TILE and getattr(options, "sheet", None) is None
+        """Return whether a page may be divided over several files, of which none has been chosen."""
+        return getattr(options, "pages", None) is Pages.TILE and getattr(options, "sheet", ()) is None
 
     def parts(self, page: Page, options: Any) -> list[tuple[str, dict[str, Any]]]:
         """Return the files that a page is divided over, none where it need not be.

@@ -102,9 +102,10 @@ class Pages(enum.StrEnum):
     """What becomes of a drawing that is larger than the page."""
 
     ONE = "one"
-    """It is refused."""
+    """It is refused; a PDF has one page, as large as it takes."""
     TILE = "tile"
-    """It is divided over several pages that overlap, each a file of its own, with crosses to lay them by."""
+    """It is divided over several pages that overlap, with crosses to lay them by: in HPGL each is a file of
+    its own, in PDF they are pages of one."""
 
 
 class Turn(enum.StrEnum):
@@ -205,6 +206,16 @@ class PdfOptions:
         Text(parse_date, 'a day in quotes such as "2026-11-30"', DATE),
         Says("the day that PDF/X-4 says it was made on; no clock is read"),
     ] = "1970-01-01"
+    pages: Annotated[
+        Pages,
+        Says("a drawing larger than the page makes the page larger (one), or is divided over several (tile)"),
+    ] = Pages.ONE
+    page: Annotated[
+        str, Says('the size of the pages, as "420 x 297 mm"; 5 m at most each way if unset, and no larger')
+    ] = ""
+    overlap: Annotated[
+        Annotated[Length, Between(0, 1000)], Says("how far the pages of a divided drawing overlap")
+    ] = 10.0
     icc_profile: bytes | None = field(default=None, repr=False, metadata={HIDDEN: True})
     """The profile, once it has been read."""
 
@@ -212,6 +223,8 @@ class PdfOptions:
         check(self)
         if not self.icc:
             belongs(self, ("condition", "date"), "icc")
+        if self.pages is not Pages.TILE:
+            belongs(self, ("page", "overlap"), 'pages = "tile"')
         if self.inks is not PdfInks.SPOT:
             belongs(self, ("alternate", "overprint"), 'inks = "spot"')
 

@@ -83,10 +83,10 @@ def page_warnings(path: Path, output: OutputSpec, page: Page) -> list[str]:
     from batik_vector.export.pdf.separations import reckoned
 
     found = []
-    if (unit := units_per_user_unit(page)) > 1:
+    if (unit := units_per_user_unit(page, output.options)) > 1:
         found.append(
             f"{path.name}: over 5.08 m long, and so in units of {unit} points (UserUnit): a program that "
-            f"passes this over shows it {unit} times too small"
+            f'passes this over shows it {unit} times too small; pages = "tile" divides it over several'
         )
     if names := reckoned(page, output.options):
         inks = ", ".join(f'"{name}"' for name in names)

@@ -15,7 +15,7 @@ import shapely
 from PIL import Image
 
 from batik_vector.artwork import Artwork, Cell, Ink, Layer, Overlap
-from batik_vector.export import PdfInks, PdfOptions, render
+from batik_vector.export import Pages, PdfInks, PdfOptions, render
 from batik_vector.machines import Machine
 from batik_vector.making.pages import Latest, render_output
 from batik_vector.processes.options import TrapProcess
@@ -124,3 +124,34 @@ def test_a_line_along_the_edge_shows_its_other_half(
     pdf.write_bytes(sink.getvalue())
     row = np.asarray(load(viewer(pdf, PER_MM)))[200, :, 0] < 128
     assert np.flatnonzero(row).tolist() == [*range(25), *range(385, 400)]
+
+
+@pytest.mark.parametrize("inks", list(PdfInks))
+def test_the_pages_of_a_divided_drawing_are_its_parts(tmp_path: Path, inks: PdfInks) -> None:
+    tile = two(Overlap.OVERLAY)
+    whole, pages = tmp_path / "whole.pdf", tmp_path / "pages.pdf"
+    whole.write_bytes(render(tile, "pdf", PdfOptions(inks=inks)))
+    divided = PdfOptions(inks=inks, pages=Pages.TILE, page="24 x 24 mm", overlap=8)
+    pages.write_bytes(render(tile, "pdf", divided))
+    assert "No syntax" in programs.run("qpdf", "--check", pages, home=tmp_path)
+    known = np.asarray(load(programs.mupdf(whole, PER_MM)).convert("L")).astype(int)
+    dpi = programs.dpi(PER_MM)
+    programs.run("mutool", "draw", "-q", "-r", dpi, "-o", tmp_path / "m-%d.png", pages, home=tmp_path)
+    programs.run("pdftoppm", "-png", "-r", dpi, pages, tmp_path / "p", home=tmp_path)
+    for name in ("m", "p"):
+        for number, (x, y) in enumerate([(0, 160), (160, 160), (0, 0), (160, 0)], start=1):
+            part = np.asarray(Image.open(tmp_path / f"{name}-{number}.png").convert("L")).astype(int)
+            expected = known[y : y + 240, x : x + 240]
+            odd = np.abs(part[:240, :240] - expected) > 40
+            # Crosses apart: five millimetres of lines of 0.2 mm each, which hardly show on what is dark.
+            assert 20 < odd.sum() < 1500
+
+
+def test_crosses_of_pages_stand_on_every_plate(tmp_path: Path) -> None:
+    pdf = tmp_path / "pages.pdf"
+    options = PdfOptions(inks=PdfInks.SPOT, pages=Pages.TILE, page="24 x 40 mm", overlap=8)
+    pdf.write_bytes(render(two(), "pdf", options))
+    for path in programs.plates(pdf, PER_MM).values():
+        picture = np.asarray(Image.open(path))
+        # The first page's, in the middle of the strip that both share, a quarter from above.
+        assert picture[98:103, 190:210].min(axis=0).max() < 100

@@ -172,7 +172,7 @@ def test_a_page_in_larger_units_is_warned_of(tmp_path: Path) -> None:
     report = made(tmp_path, TILE + CLOTH.replace('"300 mm"', '"11 m"'), ("pdf", "svg"))
     assert [words for words in report["warnings"] if "UserUnit" in words] == [
         "dots.pdf: over 5.08 m long, and so in units of 3 points (UserUnit): a program that passes this over "
-        "shows it 3 times too small"
+        'shows it 3 times too small; pages = "tile" divides it over several'
     ]
     with pikepdf.open(tmp_path / "out" / "dots.pdf") as opened:
         assert float(opened.pages[0].UserUnit) == 3

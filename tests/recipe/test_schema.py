@@ -84,6 +84,7 @@ BEYOND = {
         "a press of which there is no profile",
         "a press outside of the folder",
         "a day for no press",
+        "pages of a size and no pages",
         "an alternate of no separation",
         "border radius without bend",
         "border placement with region",

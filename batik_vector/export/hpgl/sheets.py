@@ -13,11 +13,12 @@ from numpy.typing import NDArray
 
 from batik_vector.artwork import Page
 from batik_vector.errors import UnsupportedByFormatError
+from batik_vector.export.dividing import Grid, check_overlap, parse_sheet
 from batik_vector.export.hpgl.clipping import Window, clipped
 from batik_vector.export.options import HpglOptions, Pages, Turn
 from batik_vector.geometry.outlines import Offsets, Outlines, Steps
 from batik_vector.machines.hpgl import FARTHEST, Hpgl, HpglPage, Origin, sheet_of
-from batik_vector.units import STEPS_PER_MM, format_mm, parse_length, to_steps
+from batik_vector.units import STEPS_PER_MM, format_mm, to_steps
 from batik_vector.values import frozen
 
 NM_PER_STEP = 1_000_000 // STEPS_PER_MM
@@ -166,14 +167,6 @@ def _papers(device: Hpgl, options: HpglOptions) -> tuple[HpglPage, ...]:
     return (sheet_of(asked, parse_sheet(asked), device),)
 
 
-def parse_sheet(text: str) -> tuple[float, float]:
-    """Return breadth and height in mm of a sheet such as ``"420 x 297 mm"``."""
-    first, second = text.split("x")
-    unit = second.strip().lstrip("0123456789.")
-    width = parse_length(first if first.strip()[-1:].isalpha() else first + unit)
-    return width, parse_length(second)
-
-
 def _limits(paper: HpglPage) -> Window:
     return (*paper.low, *paper.high)
 
@@ -217,43 +210,20 @@ def _tiled(frame: Frame, paper: HpglPage, options: HpglOptions) -> Iterator[Shee
     """
     limits = _limits(paper)
     room, overlap = _room(limits), frame.nearest(round(options.overlap * 1_000_000))
-    if 2 * overlap > min(room):
-        most = format_mm(min(room) * frame.unit / 2_000_000)
-        raise UnsupportedByFormatError(
-            f"overlap = {format_mm(options.overlap)} mm, expected at most {most} mm, half of the page"
+    check_overlap(options.overlap, min(room) * frame.unit / 1_000_000)
+    grid = Grid(frame.extent, room, overlap)
+    columns, rows = grid.counts
+    marks = tuple(grid.crosses())
+    for (column, row), (left, bottom) in grid.pages():
+        window = (
+            # What stands over the edge of the page is not cut off, but found to be beyond the limits.
+            left if column else -FARTHEST,
+            bottom if row else -FARTHEST,
+            left + room[0] if column < columns - 1 else FARTHEST,
+            bottom + room[1] if row < rows - 1 else FARTHEST,
         )
-    steps = tuple(side - overlap for side in room)
-    columns, rows = (
-        max(1, -(-(side - overlap) // step)) for side, step in zip(frame.extent, steps, strict=True)
-    )
-    marks = tuple(_marks((columns, rows), steps, overlap, frame.extent))
-    for row in range(rows):
-        for column in range(columns):
-            left, bottom = column * steps[0], row * steps[1]
-            window = (
-                # What stands over the edge of the page is not cut off, but found to be beyond the limits.
-                left if column else -FARTHEST,
-                bottom if row else -FARTHEST,
-                left + room[0] if column < columns - 1 else FARTHEST,
-                bottom + room[1] if row < rows - 1 else FARTHEST,
-            )
-            shift = (limits[0] - left, limits[1] - bottom)
-            yield Sheet((column + 1, row + 1), shift, window, limits, marks)
-
-
-def _marks(
-    counts: tuple[int, int], steps: tuple[int, ...], overlap: int, extent: tuple[int, int]
-) -> Iterator[tuple[int, int]]:
-    """Yield where crosses stand: two in each strip that neighbouring sheets share, in the middle of it."""
-    for axis in (0, 1):
-        other = 1 - axis
-        for seam in range(1, counts[axis]):
-            middle = seam * steps[axis] + overlap // 2
-            for number in range(counts[other]):
-                low = number * steps[other]
-                high = min(low + steps[other] + overlap, extent[other])
-                for along in (low + (high - low) // 4, high - (high - low) // 4):
-                    yield (middle, along) if axis == 0 else (along, middle)
+        shift = (limits[0] - left, limits[1] - bottom)
+        yield Sheet((column + 1, row + 1), shift, window, limits, marks)
 
 
 def crosses(plan: Plan, sheet: Sheet) -> tuple[Steps, Offsets]:

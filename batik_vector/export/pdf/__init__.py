@@ -35,7 +35,7 @@ def render(page: Page, options: PdfOptions = DEFAULTS) -> bytes:
 
 
 def write(page: Page, sink: BinaryIO, options: PdfOptions = DEFAULTS) -> None:
-    """Write a page as a PDF file of one page.
+    """Write a page as a PDF file of one page, or of several over which it is divided.
 
     Raises:
         ExportError: where the page holds what cannot be written.
@@ -60,7 +60,9 @@ class _PdfSurface:
         self._file = File(self._sink)
         for at, body in enumerate(self._document.before(), start=1):
             self._file.whole(at, body)
-        self._content = Stream(self._file, DRAWING, self._document.length_number)
+        self._content = Stream(
+            self._file, DRAWING, self._document.length_number, self._document.drawing_entries()
+        )
         scale = number(POINTS_PER_STEP / self._document.unit, 16)
         self._put(f"{scale} 0 0 {scale} 0 0 cm\n1 J 1 j\n")
         if self._options.shows_cloth:

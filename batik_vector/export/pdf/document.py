@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from batik_vector.artwork import Page
+from batik_vector.artwork import Ink, Page
 from batik_vector.errors import ExportError, UnsupportedByFormatError
-from batik_vector.export.options import PdfInks, PdfOptions
+from batik_vector.export.options import Pages, PdfInks, PdfOptions
 from batik_vector.export.pdf import metadata, print_standard
 from batik_vector.export.pdf.container import INFO
 from batik_vector.export.pdf.icc import IccProfile, icc_profile
-from batik_vector.export.pdf.separations import paints_of
+from batik_vector.export.pdf.separations import paints_of, separation, told
+from batik_vector.export.pdf.sheets import LINE, Window, planned
 from batik_vector.export.pdf.spelling import number, text
 from batik_vector.units import STEPS_PER_MM
 
@@ -27,11 +28,14 @@ LAID_OVER = (
 """Whether what is drawn leaves other plates as they are (ISO 32000-1, 8.6.7)."""
 
 
-def units_per_user_unit(page: Page) -> int:
+def units_per_user_unit(page: Page, options: PdfOptions | None = None) -> int:
     """Return by what ``UserUnit`` a page's units are larger than points: 1 up to 5.08 m, and a warning else.
 
-    Some programs pass ``UserUnit`` over, and show the page so many times too small.
+    Some programs pass ``UserUnit`` over, and show the page so many times too small. Divided over pages, none
+    is so large.
     """
+    if options is not None and options.pages is Pages.TILE:
+        return 1
     return max(1, math.ceil(max(size_of(page)) * POINTS_PER_STEP / LONGEST_SIDE))
 
 
@@ -65,7 +69,8 @@ class Document:
     def __init__(self, page: Page, options: PdfOptions) -> None:
         self.page, self.options = page, options
         self.size = size_of(page)
-        self.unit = units_per_user_unit(page)
+        self.sheets = planned(self.size, options)
+        self.unit = units_per_user_unit(page, options)
         self.press = press_of(options)
         if self.press is not None:
             print_standard.check(page, options, self.press, self.unit)
@@ -76,7 +81,13 @@ class Document:
         spaces = sum(bool(paint.space) for paint in self.paints)
         self.spaces = range(self.groups.stop, self.groups.stop + spaces)
         self.profile_number = self.spaces.stop
-        self.length_number = self.profile_number + (self.press is not None)
+        first = self.profile_number + (self.press is not None)
+        count = len(self.sheets.windows) if self.sheets.divided else 0
+        self.shows = range(first, first + count)
+        """The contents of several pages, each of which shows the drawing."""
+        self.others = range(self.shows.stop, self.shows.stop + max(count - 1, 0))
+        """The pages after the first."""
+        self.length_number = self.others.stop
         """Of the object that holds the drawing's length, should that come behind it: the last."""
 
     @property
@@ -87,16 +98,17 @@ class Document:
     def before(self) -> Iterator[bytes]:
         """Yield the objects that come before the drawing."""
         listed = " ".join(f"{each} 0 R" for each in self.groups)
-        told = press = ""
+        named = press = ""
         if self.press is not None:
-            told = f"/Name {text('Layers')} "
+            named = f"/Name {text('Layers')} "
             press = print_standard.catalogue(self.profile_number, self.options, self.press)
-        order = f"/OCProperties << /OCGs [{listed}] /D << {told}/Order [{listed}] /ON [{listed}] >> >>"
+        order = f"/OCProperties << /OCGs [{listed}] /D << {named}/Order [{listed}] /ON [{listed}] >> >>"
         layers = order if self.layers else ""
         head = f"<< /Type /Catalog /Pages {PAGES} 0 R /Metadata {METADATA} 0 R"
         yield f"{head} {press}{layers} >>".encode("ascii")
-        yield f"<< /Type /Pages /Kids [{PAGE} 0 R] /Count 1 >>".encode("ascii")
-        yield self._page_object()
+        kids = [f"{each} 0 R" for each in (PAGE, *self.others)]
+        yield f"<< /Type /Pages /Kids [{' '.join(kids)}] /Count {len(kids)} >>".encode("ascii")
+        yield self._page_object(0)
 
     def behind(self) -> Iterator[bytes]:
         """Yield the objects that come behind it."""
@@ -113,6 +125,9 @@ class Document:
             yield from (paint.space for paint in self.paints)
         if self.press is not None:
             yield print_standard.profile_object(self.press)
+        if self.sheets.divided:
+            yield from (self._show(window) for window in self.sheets.windows)
+            yield from (self._page_object(each) for each in range(1, len(self.sheets.windows)))
 
     def resources(self) -> str:
         """Return what the drawing names: layers, colour spaces, and how inks lie over one another."""
@@ -121,24 +136,54 @@ class Document:
         over = LAID_OVER if self.overprints else ""
         return f"<< /Properties << {properties} >> {over}/ColorSpace << {spaces} >> >>"
 
-    def _page_object(self) -> bytes:
-        cell, margins = self.page.cell, self.page.margins
+    def drawing_entries(self) -> bytes:
+        """Return what the dictionary of the drawing's stream says where several pages show it."""
+        if not self.sheets.divided:
+            return b""
+        whole = self._box(0, 0, *self.size)
+        return f"/Type /XObject /Subtype /Form /BBox {whole} /Resources {self.resources()} ".encode("ascii")
+
+    def _show(self, window: Window) -> bytes:
+        """Return the contents of a page that shows a part of the drawing, and the crosses on it."""
+        x, y = (number(-steps * POINTS_PER_STEP, 8) for steps in (window.left, window.bottom))
+        scale = number(POINTS_PER_STEP, 16)
+        fill = "/All CS 1 SCN" if self.options.inks is PdfInks.SPOT else "0 0 0 RG"
+        marks = "".join(self.sheets.marks(window))
+        body = f"1 0 0 1 {x} {y} cm\n/Drawing Do\n{scale} 0 0 {scale} 0 0 cm\n{fill}\n{LINE} w\n{marks}"
+        return f"<< /Length {len(body)} >>\nstream\n{body}\nendstream".encode("ascii")
+
+    def _page_object(self, which: int) -> bytes:
+        cell, margins, window = self.page.cell, self.page.margins, self.sheets.windows[which]
         bleed = round(self.page.bleed * STEPS_PER_MM)
         x, y = margins.left, margins.bottom
-        width, height = self.size
-        whole = self._box(0, 0, width, height)
-        inked = self._box(
-            max(x - bleed, 0),
-            max(y - bleed, 0),
-            min(x + cell.columns + bleed, width),
-            min(y + cell.rows + bleed, height),
-        )
-        trim = self._box(x, y, x + cell.columns, y + cell.rows)
+        whole = self._box(0, 0, window.width, window.height)
+        inked = self._part(window, x - bleed, y - bleed, x + cell.columns + bleed, y + cell.rows + bleed)
+        trim = self._part(window, x, y, x + cell.columns, y + cell.rows)
         unit = f"/UserUnit {self.unit} " if self.unit > 1 else ""
+        contents, resources = DRAWING, self.resources()
+        if self.sheets.divided:
+            contents, resources = self.shows[which], self._of_show()
         return (
             f"<< /Type /Page /Parent {PAGES} 0 R /MediaBox {whole} /CropBox {whole} /BleedBox {inked} "
-            f"/TrimBox {trim} {unit}/Contents {DRAWING} 0 R /Resources {self.resources()} >>"
+            f"/TrimBox {trim} {unit}/Contents {contents} 0 R /Resources {resources} >>"
         ).encode("ascii")
+
+    def _of_show(self) -> str:
+        """Return what the contents of one of several pages name."""
+        if self.options.inks is not PdfInks.SPOT:
+            return f"<< /XObject << /Drawing {DRAWING} 0 R >> >>"
+        ink = Ink("marks", "#000000")
+        alternate = self.options.alternate or told(ink, self.press.space if self.press else "")
+        every = separation("All", ink, alternate).decode("ascii")
+        return f"<< /XObject << /Drawing {DRAWING} 0 R >> /ColorSpace << /All {every} >> >>"
+
+    def _part(self, window: Window, left: int, bottom: int, right: int, top: int) -> str:
+        """Return the box that a page shows of a rectangle of the drawing; all of it where that is nothing."""
+        x0, y0 = max(left - window.left, 0), max(bottom - window.bottom, 0)
+        x1, y1 = min(right - window.left, window.width), min(top - window.bottom, window.height)
+        if x0 >= x1 or y0 >= y1:
+            return self._box(0, 0, window.width, window.height)
+        return self._box(x0, y0, x1, y1)
 
     def _box(self, *edges: int) -> str:
         return "[" + " ".join(points(steps, self.unit) for steps in edges) + "]"
