@@ -227,6 +227,14 @@ def _hatch(kind: str) -> Put:
     return put
 
 
+def _fill(kind: str) -> Put:
+    def put(data: Tables) -> Tables:
+        found: Tables = data["place"][0].setdefault("fill_with", {"kind": kind})
+        return found
+
+    return put
+
+
 def _yardage(data: Tables) -> Tables:
     width, length = (2 * float(str(side).split()[0]) for side in data["tile"]["size"])
     found: Tables = data.setdefault("yardage", {"width": width, "length": length})
@@ -266,6 +274,7 @@ ROOMS: dict[str, Callable[[str], Put]] = {
     "output": _output,
     "process": _process,
     "hatch": _hatch,
+    "fill": _fill,
 }
 
 

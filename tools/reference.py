@@ -35,6 +35,7 @@ from batik_vector.processes.options import PROCESSES
 from batik_vector.recipe.border import BorderSpec, Corner, Ends, Facing, RailSpec
 from batik_vector.recipe.colourways import ColourwaySpec
 from batik_vector.recipe.drawing import Dressing, Svg
+from batik_vector.recipe.fills import FILLS, Follow, Rows
 from batik_vector.recipe.lsystem import Grown, Growth
 from batik_vector.recipe.model import ClothSpec, InkSpec, Placement, Recipe, YardageSpec
 from batik_vector.recipe.motif import (
@@ -280,6 +281,9 @@ def page() -> str:
     lines += table(Dress)
     lines += words("treatment", Treatment)
     lines += words("fill", FillRule)
+    lines += catalogue("Fills", "`kind` of `fill_with` of an element or a placement", FILLS)
+    lines += words("follow (of lines)", Follow)
+    lines += words("follow (of dots and crosses)", Rows)
     lines += catalogue("Curves", "`kind` of the `curve` of an element", CURVES)
     lines += words("system (of a fractal)", FractalName)
     lines += words("map (of an attractor)", AttractorMap)

@@ -49,7 +49,7 @@ def sized(figures: list[Figure], maps: Affines) -> list[Figure]:
     """Return the images of figures under maps, those of each map together."""
     areas = _divided(maps, [figure.areas for figure in figures])
     lines = _divided(maps, [figure.lines for figure in figures])
-    return [Figure(figure.element, *marks) for figure, *marks in zip(figures, areas, lines, strict=True)]
+    return [replace(f, areas=a, lines=b) for f, a, b in zip(figures, areas, lines, strict=True)]
 
 
 def _divided(maps: Affines, parts: list[Geometries]) -> list[Geometries]:

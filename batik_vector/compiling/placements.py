@@ -12,6 +12,7 @@ import shapely
 
 from batik_vector.artwork import Cell, Geometries, Ink
 from batik_vector.compiling.copies import Laid, Look, set_down, sized
+from batik_vector.compiling.fills import Work, filled, has_fills
 from batik_vector.compiling.grounds import Ground, lattice_of, scattered, striped
 from batik_vector.errors import GeometryError, RecipeError, TooLargeError, UnknownNameError, blame
 from batik_vector.geometry import work
@@ -91,12 +92,13 @@ def place(
     if len(placement.motifs) > 1:
         return _dealt(placement, recipe, unit, inks, limit, orbit)
     motif = _known(recipe.motif, placement.motifs[0], "motif")
-    key = placement, motif, unit, tuple(inks.values()), recipe.tolerance, orbit
+    seed = recipe.seed if has_fills(motif, placement) else 0
+    key = placement, motif, unit, tuple(inks.values()), recipe.tolerance, orbit, seed
     # What is built in Python may hold lists, and is then drawn anew each time.
     keeps = _hashable(key)
     kept = _kept.get(key) if keeps else None
     if kept is None or kept.foretold > limit:
-        kept = _Kept(*_drawn(placement, motif, recipe.tolerance, unit, inks, limit, orbit))
+        kept = _Kept(*_drawn(placement, motif, recipe.tolerance, unit, inks, limit, orbit, seed))
         if keeps and kept.placed.vertices <= KEPT_VERTICES:
             _kept[key] = kept
             while len(_kept) > KEPT_PLACEMENTS:
@@ -147,6 +149,7 @@ def _drawn(
     inks: Mapping[str, Ink],
     limit: int,
     orbit: Orbit,
+    seed: int,
 ) -> tuple[int, Placed]:
     """Draw what a placement sets out; return how many vertices were expected with it."""
     layout, cell = placement.layout, (unit.width / orbit.base.a, unit.height / orbit.base.d)
@@ -171,7 +174,10 @@ def _drawn(
         scale = placement.width / _extent(figures, copies)
     at = placement.at or orbit.middle or (cell[0] / 2, cell[1] / 2)
     on_cloth = orbit.base @ Affine.translation(at) @ Affine.turn(placement.turn) @ Affine.scale(scale)
-    laid = Laid(figures, on_cloth @ copies, orbit.is_trivial)
+    maps = on_cloth @ copies
+    fills = Work(placement, inks, fineness, seed, limit, orbit.turns_at(maps[0]))
+    shown = filled(figures, placement.motifs[0], motif, maps, times, fills)
+    laid = Laid(shown, maps, orbit.is_trivial)
     if orbit.region:
         laid = _mirrored(laid, orbit, finest)
     elif not orbit.is_trivial:
@@ -243,6 +249,7 @@ def _ground(
     finer = {name: each * scale / finest for name, each in coarse.items()}
     times = len(orbit.operations)
     tossed, drawn = None, dict[str, Laid]()
+    fills = Work(placement, inks, recipe.tolerance, recipe.seed, limit)
     with blame("layout"):
         tosses = [each.tossed for each in before if each.tossed]
         sheets = [sheet for each in before for sheet in each.sheets]
@@ -252,14 +259,19 @@ def _ground(
             for (name, motif), copies in zip(motifs.items(), tossed.copies, strict=True):
                 if copies:
                     _refuse_past(limit, rough[name], copies, times, finer[name])
-                    drawn[name] = _multiplied(Laid(*_set_out(motif, copies, finest)), orbit, finest)
+                    figures, maps = _set_out(motif, copies, finest)
+                    shown = filled(figures, name, motif, maps, times, fills)
+                    drawn[name] = _multiplied(Laid(shown, maps), orbit, finest)
         elif isinstance(placement.layout, Stripes):
             lines = striped(placement, placement.layout, scale, unit, ground)
             for name, motif in motifs.items():
                 _refuse_past(limit, rough[name], len(lines.starts) * lines.links, times, finer[name])
+                one = Affines.of([Affine.scale(scale)])
+                links = len(lines.starts) * lines.links
+                shown = filled(_shown(draw(motif, finest / lines.stretch)), name, motif, one, links, fills)
                 figures = [
                     replace(figure, areas=lines.areas(figure.areas), lines=lines.lines(figure.lines))
-                    for figure in _shown(draw(motif, finest / lines.stretch))
+                    for figure in shown
                 ]
                 drawn[name] = _multiplied(Laid(figures, ONE), orbit, finest)
     return _placed(drawn, placement, inks, recipe.tolerance, tossed)

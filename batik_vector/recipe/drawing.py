@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 from batik_vector.errors import Fault, GeometryError, RecipeError
 from batik_vector.fields import HIDDEN, Between, Colour, Converted, Length, Names, Says, check
+from batik_vector.recipe.fills import AnyFill
 from batik_vector.recipe.look import Dress, Treatment
 from batik_vector.values import frozen
 
@@ -52,6 +53,9 @@ class Look:
         Says("ground kept bare round them by cutting what lies beneath"),
     ] = None
     whole: Annotated[bool | None, Says("left out, not cut, where something above would cut them")] = None
+    fill_with: Annotated[
+        AnyFill | None, Says("marks that fill what is filled (isen): dots, lines, scales and more")
+    ] = None
 
     def __post_init__(self) -> None:
         check(self)
@@ -64,6 +68,7 @@ class Look:
             treatment=wider.treatment if self.treatment is None else self.treatment,
             gap=wider.gap if self.gap is None else self.gap,
             whole=wider.whole if self.whole is None else self.whole,
+            fill_with=self.fill_with or wider.fill_with,
         )
 
 
@@ -227,7 +232,7 @@ class Svg(Look):
         found = []
         if mark.fill and not (fill.treatment in _LINED and lined):
             both = fill.treatment in (*_LINED, Treatment.BOTH)
-            part = self._part(mark.name, fill, mark.fill)
+            part = replace(self._part(mark.name, fill, mark.fill), fill_with=fill.fill_with)
             if fill.treatment == Treatment.BOTH and mark.stroke and self.colours and not part.line_ink:
                 part = replace(part, line_ink=stroke.ink or self._ink(mark.stroke))
             found.append((_Source(number, region=True, line=both), part))

@@ -14,7 +14,7 @@ from batik_vector.geometry import work
 from batik_vector.geometry.curves import Curve, trace
 from batik_vector.geometry.ifs import distinct
 from batik_vector.geometry.maps.affine import IDENTITY, Affine
-from batik_vector.geometry.maps.affines import Affines, turns
+from batik_vector.geometry.maps.affines import ONE, Affines, turns
 from batik_vector.geometry.regions import FillRule, oriented, settle
 from batik_vector.geometry.sampling import Array, Geometries, Points
 from batik_vector.recipe.drawing import Part, Svg
@@ -29,6 +29,8 @@ class Figure:
     element: Element | Part
     areas: Geometries
     lines: Geometries
+    frames: Affines = ONE
+    """Where the copies of its curve are set: each has as many of the areas, one copy's together."""
 
 
 def draw(motif: Motif, tolerance: float | Callable[[Points], Array]) -> list[Figure]:
@@ -101,12 +103,12 @@ def copies_of(
 
 
 @functools.lru_cache(maxsize=128)
-def _copied(look: Look, ring: Ring) -> tuple[Geometries, Geometries]:
+def _copied(look: Look, ring: Ring) -> tuple[Geometries, Geometries, Affines]:
     """Return areas and lines of a curve and its copies. Kept: who turns one knob draws the rest again."""
-    areas, lines = _turned(*_alone(look), copies_of(*ring), look[-1])
+    areas, lines, frames = _turned(*_alone(look), copies_of(*ring), look[-1])
     for marks in (areas, lines):
         marks.flags.writeable = False
-    return areas, lines
+    return areas, lines, frames
 
 
 @functools.lru_cache(maxsize=128)
@@ -132,10 +134,10 @@ def _outlined(
 
 def _turned(
     areas: Geometries, lines: Geometries, copies: Affines, reach: float
-) -> tuple[Geometries, Geometries]:
+) -> tuple[Geometries, Geometries, Affines]:
     """Return the copies of an element that differ."""
     kept = distinct(copies, [np.concatenate([areas, lines])], reach)
-    return kept.apply(areas), kept.apply(lines)
+    return kept.apply(areas), kept.apply(lines), kept
 
 
 def _bands(nested: list[Geometries]) -> Geometries:

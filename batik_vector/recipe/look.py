@@ -7,6 +7,7 @@ from typing import Annotated
 
 from batik_vector.fields import Between, Length, Says, Useful, check
 from batik_vector.geometry.regions import FillRule
+from batik_vector.recipe.fills import AnyFill
 from batik_vector.values import frozen
 
 
@@ -45,6 +46,9 @@ class Dress:
     contours: Annotated[
         int, Between(1, 64), Useful(1, 6), Says("nested contours, evenly spaced to the centre", "l")
     ] = 1
+    fill_with: Annotated[AnyFill | None, Says("marks that fill it (isen): dots, lines, scales and more")] = (
+        None
+    )
 
     def __post_init__(self) -> None:
         check(self)

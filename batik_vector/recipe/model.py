@@ -14,6 +14,7 @@ from batik_vector.recipe.colourways import ColourwaySpec
 from batik_vector.recipe.colourways import faults_of as wrong_colourways
 from batik_vector.recipe.drawing import Svg
 from batik_vector.recipe.dyeing import BathSpec, Dyed, Inks, dyeing_of, faults_of, ink_key
+from batik_vector.recipe.fills import Fill
 from batik_vector.recipe.motif import MOTIFS, Motif, Treatment
 from batik_vector.recipe.outputs import AnyOutput, OutputSpec
 from batik_vector.recipe.placement import Placement
@@ -243,11 +244,16 @@ class Recipe:
 
     def _needs_ink(self, placement: Placement) -> bool:
         return not placement.ink and any(
-            not part.ink and part.treatment != Treatment.CUT
+            not part.ink and not (part.treatment == Treatment.CUT and _is_bare(part.fill_with))
             for name in placement.motifs
             if name in self.motif
             for part in self.motif[name].parts()
         )
+
+
+def _is_bare(fill: Fill | None) -> bool:
+    """Whether a fill takes no ink from elsewhere."""
+    return fill is None or bool(fill.ink)
 
 
 __all__ = [

@@ -7,6 +7,7 @@ from typing import Annotated, TypeAlias
 
 from batik_vector.errors import GeometryError
 from batik_vector.fields import Between, Length, Names, Says, Text, check
+from batik_vector.recipe.fills import AnyFill
 from batik_vector.recipe.references import quoted
 from batik_vector.tiling.layouts import AnyLayout, Bend, DoubleSquare, Single, Stripes, Toss
 from batik_vector.tiling.symmetry.groups import GROUP_PATTERN, group_name
@@ -41,6 +42,9 @@ class Placement:
     ] = None
     turn: Annotated[float, Between(-360, 360), Says("degrees the whole is turned")] = 0.0
     ink: Annotated[str, Says("ink of the elements that name none; needed where there are several")] = ""
+    fill_with: Annotated[
+        AnyFill | None, Says("marks that fill the elements which have no fill of their own (isen)")
+    ] = None
     symmetry: Annotated[
         str,
         Text(group_name, "one of the 17 wallpaper groups, such as p4m", GROUP_PATTERN),

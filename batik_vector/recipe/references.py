@@ -108,6 +108,8 @@ def unknown_references(recipe: Any) -> list[tuple[Path, Fault]]:
         for path, name in ink_names(child(border, "rails"), ("border", number, "rails")):
             look(path, name, inks, "ink")
     for place_path, place in places(recipe):
+        for path, name in ink_names(child(place, "fill_with"), (*place_path, "fill_with")):
+            look(path, name, inks, "ink")
         for key, known in (("motif", motifs), ("ink", inks)):
             written = child(place, key)
             several = isinstance(written, list | tuple)

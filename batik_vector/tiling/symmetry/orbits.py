@@ -36,6 +36,9 @@ NEAR = 1e-6
 LEVEL = 1e-9
 """Slope up to which floats may turn an edge that runs along an axis."""
 
+TOUCH_MM = 1e-6
+"""How far apart floats may put one place."""
+
 NEVER = 10**12
 """Grid steps to the next repeat where there is none: a thousand kilometres."""
 
@@ -122,6 +125,16 @@ class Orbit:
     def multiplied(self, copies: Sequence[Affine]) -> Affines:
         """Return all images of copies, the copies running fastest."""
         return Affines.of(self.operations).after(Affines.of(copies))
+
+    def turns_at(self, copy: Affine) -> int:
+        """Return how many turns of the orbit, no turn among them, leave the origin of a copy where it is."""
+        images = self.multiplied([copy])
+        away = images.shifts - images.shifts[:1]
+        if self.periods:
+            basis = np.array(self.periods, float)
+            away = away - np.rint(away @ np.linalg.pinv(basis)) @ basis
+        same = np.sign(images.determinants) == np.sign(images.determinants[0])
+        return int((same & (np.hypot(*away.T) < TOUCH_MM)).sum())
 
     def mirrored(self, marks: Geometries, crumb: float = 0.0) -> Geometries:
         """Return marks (mm) wrapped by the periods, cut to the region, and all images of the pieces.

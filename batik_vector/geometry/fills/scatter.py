@@ -1,0 +1,48 @@
+"""Places tossed into regions with a least distance between them (Poisson discs)."""
+
+from __future__ import annotations
+
+import numpy as np
+import shapely
+
+from batik_vector.geometry.fills.insets import Parts
+from batik_vector.geometry.fills.thinning import thinned
+from batik_vector.geometry.sampling import Array, Indices
+
+ROUNDS, TRIES = 6, 2.0
+"""How often places are tried, and how many for each square of the distance."""
+
+
+def scattered(parts: Parts, spacing: float, seed: int) -> tuple[Array, Indices]:
+    """Return places within parts, no two of a region nearer than the spacing, and the part of each.
+
+    Dart throwing in rounds: of those tried in one round the earlier has its way.
+    """
+    rng = np.random.default_rng(seed)
+    shapely.prepare(parts.shapes)
+    points, part = np.empty((0, 2)), np.empty(0, np.intp)
+    low, high = np.split(shapely.bounds(parts.shapes).reshape(-1, 4), 2, axis=1)
+    count = np.ceil(TRIES * np.prod(high - low, axis=1) / spacing**2).astype(np.intp)
+    of = np.repeat(np.arange(len(count)), count)
+    for _ in range(ROUNDS):
+        tried = low[of] + rng.random((len(of), 2)) * (high - low)[of]
+        free = ~np.isin(_cells(tried, of, spacing), _cells(points, part, spacing))
+        tried, mine = tried[free], of[free]
+        inside = shapely.contains_xy(parts.shapes[mine], tried[:, 0], tried[:, 1])
+        points, part = np.concatenate([points, tried[inside]]), np.concatenate([part, mine[inside]])
+        kept = thinned(points, parts.region[part], spacing)
+        points, part = points[kept], part[kept]
+    return points, part
+
+
+def _cells(points: Array, part: Indices, spacing: float) -> Indices:
+    """Return a number for the cell of each place: its diagonal is so short that no other has room in it."""
+    column, row = np.floor(points * (1.42 / spacing)).astype(np.int64).T
+    cells: Indices = (part * 2_000_003 + column) * 2_000_003 + row
+    return cells
+
+
+def turns(count: int, seed: int) -> Array:
+    """Return directions in radians for so many marks."""
+    found: Array = np.random.default_rng([seed, 1]).random(count) * 2 * np.pi
+    return found
