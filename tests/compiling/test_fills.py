@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 import shapely
@@ -45,7 +47,7 @@ def made(petal: str = "", eye: str = "", place: str = "", repeat: str = "grid") 
     return compile_recipe(read_recipe(text))
 
 
-def ink(artwork: Artwork, name: str) -> shapely.Geometry:
+def ink(artwork: Artwork, name: str) -> Any:
     return shapely.union_all(next(layer.areas for layer in artwork.layers if layer.ink.name == name))
 
 

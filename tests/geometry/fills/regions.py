@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import shapely
 
@@ -15,7 +17,7 @@ def region(seed: int, size: float = 16.0) -> Geometries:
     turn = np.sort(chance.random(count)) * 2 * np.pi
     reach = size * (0.3 + 0.7 * chance.random(count))
     corners = np.column_stack([reach * np.cos(turn) * chance.uniform(0.5, 1.5), reach * np.sin(turn)])
-    shape = shapely.Polygon(corners).buffer(0).buffer(float(chance.choice([0, -0.8, 1.2])))
+    shape: Any = shapely.Polygon(corners).buffer(0).buffer(float(chance.choice([0, -0.8, 1.2])))
     for _ in range(int(chance.integers(0, 5))):
         middle = shapely.Point(chance.normal(size=2) * size * 0.3)
         shape = shape.difference(middle.buffer(chance.uniform(0.3, size * 0.2)))
