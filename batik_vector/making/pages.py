@@ -140,6 +140,7 @@ def divided(page: Page, output: OutputSpec, latest: Latest) -> list[Part]:
     A process may leave several pages. What a format divides goes through its processes first, once for all
     parts.
     """
+    output = output.completed()
     for number, process in enumerate(output.process):
         with _keyed(_process_key(output.process, number)):
             found = process.parts(page)

@@ -80,6 +80,10 @@ class OutputSpec:
     def __post_init__(self) -> None:
         check(self)
 
+    def completed(self) -> OutputSpec:
+        """Return the output with the processes that its format cannot do without."""
+        return self
+
     @property
     def options(self) -> Any:
         """The options of the format's writer, an instance of its own class."""
@@ -181,11 +185,11 @@ class TiffOutput(OutputSpec, TiffOptions):
     format = "tiff"
     writer = TiffOptions
 
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if not any(isinstance(each, SeparateProcess) for each in self.process):
-            # One bit tells of one ink.
-            object.__setattr__(self, "process", (*self.process, SeparateProcess()))
+    def completed(self) -> TiffOutput:
+        """Return the output with what it goes through in the end: one bit tells of one ink."""
+        if any(isinstance(each, SeparateProcess) for each in self.process):
+            return self
+        return replace(self, process=(*self.process, SeparateProcess()))
 
 
 @frozen(kw_only=True)

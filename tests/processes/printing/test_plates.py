@@ -108,6 +108,20 @@ def test_tiff_alone_is_separated_and_its_recipe_comes_back(recipe: Path) -> None
     assert (code, report["recipes"][0]["title"]) == (0, "Plates")
 
 
+def test_plates_have_their_traps(recipe: Path) -> None:
+    for process in (["trap width=0.3mm"], ["trap width=0.3mm", "separate"]):
+        asked = [word for each in process for word in ("--process", each)]
+        code, report, _ = call(recipe, "-f", "tiff", *asked)
+        files = report["recipes"][0]["files"]
+        assert (code, [Path(each["path"]).name for each in files]) == (0, [f"p-{end}.tiff" for end in ENDS])
+        assert files[0]["process"]["trap"]["gains"][0]["ink"] == "straw/1"
+        straw = next(
+            each for each in compile_recipe(load_recipe(recipe)).layers if each.ink.name == "straw/1"
+        )
+        covers = float(shapely.area(straw.areas).sum()) / 400
+        assert covers + 0.005 < files[0]["process"]["separate"]["covers"] < covers + 0.03
+
+
 def test_the_half_of_a_line_across_the_edge_is_on_the_other_one() -> None:
     # Along the tile's left edge, with its twin cut away.
     layer = Layer(Ink("line", "#000000", 2.0), lines=geometries(line((0, 0), (0, 10))))
