@@ -45,7 +45,7 @@ FLOORS: Floors = _floors(
     "__init__",
     "library",
     "studio",
-    "command",
+    "command notebook",
     "__main__",
 )
 """Rooms of the package, the ground floor first: each may look at those below it, and at nothing else. So

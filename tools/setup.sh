@@ -198,6 +198,8 @@ clients_ready() {
     # Without its viewer, which draws on a screen.
     step "installing vsketch into $plotting (pip)" pip_install "$plotting" --no-deps vsketch==1.2.0
     step "installing readers of HPGL into $plotting (pip)" pip_install "$plotting" ezhpgl==0.1.0a2 hpgl-buddy==1.8.0
+    step "installing Jupyter's notebooks into $plotting (pip)" pip_install "$plotting" \
+        ipywidgets==8.1.9 nbconvert==7.17.2 ipykernel==7.4.0
     rm -f "$plotting/.unfinished"
     # What drives the browser on the studio's page.
     environment "$venv"
