@@ -14,7 +14,8 @@ from ezdxf import recover
 from ezdxf.filemanagement import read
 
 from batik_vector.artwork import Artwork, Cell, Ink, Layer, Provenance
-from batik_vector.export import dxf, dxf_skeleton, pdf, svg
+from batik_vector.export import dxf, pdf, svg
+from batik_vector.export.dxf import skeleton
 from batik_vector.export.options import DxfOptions, DxfVersion
 from batik_vector.export.palette import ACI, distinct_aci, dxf_names, r12_names, rgb
 
@@ -225,9 +226,9 @@ def test_colours_are_near_and_distinct() -> None:
 def test_the_skeletons_are_what_the_script_makes() -> None:
     folder = Path(dxf.__file__).parent
     # ezdxf may change with its version, but never what varies from run to run.
-    assert dxf_skeleton.r2000() == dxf_skeleton.r2000()
-    assert dxf_skeleton.r2000() == (folder / dxf.R2000_SKELETON).read_text("ascii")
-    assert dxf_skeleton.r12() == (folder / dxf.R12_SKELETON).read_text("ascii")
+    assert skeleton.r2000() == skeleton.r2000()
+    assert skeleton.r2000() == (folder / dxf.R2000_SKELETON).read_text("ascii")
+    assert skeleton.r12() == (folder / dxf.R12_SKELETON).read_text("ascii")
 
 
 def test_an_ink_named_like_a_mark_of_the_skeleton_does_no_harm() -> None:

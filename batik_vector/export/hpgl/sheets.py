@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 
 from batik_vector.artwork import Page
 from batik_vector.errors import UnsupportedByFormatError
+from batik_vector.export.dividing import Grid, check_overlap, parse_sheet
 from batik_vector.export.hpgl.clipping import Window, clipped
 from batik_vector.export.options import HpglOptions, Pages, Turn
 from batik_vector.geometry.outlines import Offsets, Outlines, Steps
-from batik_vector.machines.dividing import Grid, check_overlap, parse_sheet
 from batik_vector.machines.hpgl import FARTHEST, Hpgl, HpglPage, Origin, sheet_of
 from batik_vector.units import STEPS_PER_MM, format_mm, to_steps
 from batik_vector.values import frozen

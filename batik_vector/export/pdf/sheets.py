@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from batik_vector.errors import UnsupportedByFormatError
+from batik_vector.export.dividing import Grid, check_overlap, parse_sheet
 from batik_vector.export.options import Pages, PdfOptions
-from batik_vector.machines.dividing import Grid, check_overlap, parse_sheet
 from batik_vector.units import STEPS_PER_MM, format_mm, to_steps
 from batik_vector.values import frozen
 

@@ -1,4 +1,4 @@
-"""Makes the two empty DXF files that the writer fills in: ``python -m batik_vector.export.dxf_skeleton``.
+"""Makes the two empty DXF files that the writer fills in: ``python -m batik_vector.export.dxf.skeleton``.
 
 A complete DXF is some three thousand lines of tables and objects, each tied to others by handles, and
 AutoCAD discards a file for one missing link. So ezdxf, which knows them, writes an empty drawing once;

@@ -4,7 +4,7 @@ Only the dullest parts of the format are used, since those are what every cutter
 splines, hatches, blocks or comments. Areas and lines are both drawn as outlines and centre lines: DXF has
 no fill that all readers share. Contours come in the order in which a tool should follow them, the inner
 before the outer (see :mod:`batik_vector.processes.order`). Everything around the entities comes from a
-skeleton kept as data (see :mod:`batik_vector.export.dxf_skeleton`); ezdxf is not needed to write.
+skeleton kept as data (see :mod:`batik_vector.export.dxf.skeleton`); ezdxf is not needed to write.
 
 Recipe, seed and version stand in an XRECORD in the named-object dictionary (R2000), or in the extended
 data of the model-space block (R12, which has no dictionaries), where they must fit ``R12_PROVENANCE``
@@ -41,8 +41,8 @@ from batik_vector.export.provenance import ascii_chunks
 from batik_vector.export.walk import Order, Outlines, in_memory, walk
 from batik_vector.units import STEPS_PER_MM
 
-R2000_SKELETON = "dxf_r2000.txt"
-R12_SKELETON = "dxf_r12.txt"
+R2000_SKELETON = "r2000.txt"
+R12_SKELETON = "r12.txt"
 DICTIONARY = "BATIK_VECTOR"
 DICTIONARY_HANDLE, XRECORD_HANDLE = "80", "81"
 FIRST_LAYER = 0x100
