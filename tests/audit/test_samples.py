@@ -37,6 +37,7 @@ CLEAN = [
     ("laser", "machine-laser"),
     ("vinyl-cutter", "machine-vinyl"),
     ("stencil-film", "machine-stencil"),
+    ("rotary-screen", "machine-rotary"),
 ]
 
 
