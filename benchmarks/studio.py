@@ -5,17 +5,22 @@ python -m benchmarks.studio samples/four-square.toml motif.flower.petal.length
 A value is put into the slider's own event every time the picture before it has been drawn, so that each is
 waited for; the time runs in the browser, from the event to the frame after the picture is in the page. Then
 it is dragged at the pace of a hand: how many values were given, and how many pictures were seen meanwhile.
+Before that, seconds from the command to its address, and in the browser from the address to the first paint
+and to the first picture.
 """
 
 from __future__ import annotations
 
+import contextlib
 import json
 import statistics
 import sys
 import tempfile
+import time
+from collections.abc import Iterator
 from pathlib import Path
 
-from tests.clients.studio import Page, browser, studio
+from tests.clients.studio import Page, Studio, browser, studio
 
 VALUES = 40
 WARM = 8
@@ -45,15 +50,32 @@ async ([id, values, pace]) => {
 }
 """
 
+FIRST = """
+async () => {
+  const paint = () => performance.getEntriesByName("first-contentful-paint")[0];
+  while (!paint()) await new Promise((done) => setTimeout(done, 20));
+  return [paint().startTime, studio.state.first];
+}
+"""
+
+
+@contextlib.contextmanager
+def started(folder: Path, recipe: Path) -> Iterator[tuple[Studio, float]]:
+    """Start a studio; yield it with the seconds until it could be asked."""
+    begun = time.perf_counter()
+    with studio(folder, str(recipe)) as made:
+        yield made, time.perf_counter() - begun
+
 
 def measure(recipe: Path, path: str) -> dict[str, float | int | str]:
     """Return milliseconds from input to picture, and what is seen of a slider that is dragged."""
     with (
         tempfile.TemporaryDirectory() as folder,
         browser() as chromium,
-        studio(Path(folder) / "own", str(recipe)) as made,
+        started(Path(folder) / "own", recipe) as (made, seconds),
     ):
         page = Page(chromium, made.address)
+        paint, picture = page.page.evaluate(FIRST)
         slider = page.slider(path)
         slider.wait_for()
         number = int(str(slider.get_attribute("id")).removeprefix("c"))
@@ -65,6 +87,9 @@ def measure(recipe: Path, path: str) -> dict[str, float | int | str]:
     got = sorted(each for each in taken if each is not None)
     return {
         "recipe": recipe.stem,
+        "start_s": round(seconds, 2),
+        "first_paint_s": round(paint / 1000, 2),
+        "first_picture_s": round(picture / 1000, 2),
         "median_ms": round(statistics.median(got), 1),
         "p95_ms": round(got[int(0.95 * (len(got) - 1))], 1),
         "lost": len(taken) - len(got),

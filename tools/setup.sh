@@ -186,6 +186,7 @@ clients_ready() {
         gs:ghostscript hp2xx:hp2xx rsvg-convert:librsvg2-bin $browser
     # An interpreter of G-code; not every distribution has it.
     (programs_ready rs274:linuxcnc-uspace) || say "LinuxCNC cannot be installed: its tests will say so"
+    (programs_ready firefox-esr:firefox-esr) || say "Firefox cannot be installed: its test will say so"
     (programs_ready openscad:openscad) || say "OpenSCAD cannot be installed: its test will say so"
     # Inkscape's writers of other formats are Python, and take the system's.
     /usr/bin/python3 -c 'import cssselect, lxml, numpy' 2>/dev/null ||
@@ -203,7 +204,8 @@ clients_ready() {
     rm -f "$plotting/.unfinished"
     # What drives the browser on the studio's page.
     environment "$venv"
-    step "installing a driver of browsers and axe into $venv (pip)" pip_install "$venv" playwright==1.65.2 axe-core-python==0.1.0
+    step "installing drivers of browsers and axe into $venv (pip)" pip_install "$venv" playwright==1.65.2 axe-core-python==0.1.0 \
+        marionette-driver==3.7.1
     rm -f "$venv/.unfinished"
 }
 

@@ -79,7 +79,7 @@ class Pictures:
     """Makes pictures; close it at the end, or use it with ``async with``."""
 
     def __init__(self, *, limit: float = LIMIT) -> None:
-        """Make ready; processes are started by the first ask, or by :meth:`warm`.
+        """Make ready; processes are started by the first ask, or by :meth:`begin`.
 
         Args:
             limit: seconds that a picture may take.
@@ -92,6 +92,10 @@ class Pictures:
         self._newest: dict[str, int] = {}
         self._running: dict[str, tuple[_Hand, float]] = {}
         self._closed = False
+
+    def begin(self) -> None:
+        """Start the process that serves what is looked at, so that it is ready when a page is."""
+        self._hands[FRONT].begin()
 
     async def warm(self) -> None:
         """Start the process that serves what is looked at, and wait until it is ready."""
@@ -272,6 +276,10 @@ class _Hand:
         if self._wants_spare and self._spare is None and not self._ended:
             self._spare = self._made()
         return answer
+
+    def begin(self) -> None:
+        """Start the process, where that has not been done."""
+        self._open()
 
     def _open(self) -> Connection:
         if self._ended:

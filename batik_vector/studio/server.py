@@ -99,6 +99,8 @@ def serve(
     Raises:
         StudioError: where the port is taken.
     """
+    # What the server imports and what draws take a second each.
+    session.images.begin()
     # It would keep a folder of its own where the command is called.
     os.environ.setdefault("NICEGUI_STORAGE_PATH", str(session.desk.path.parent / "nicegui"))
     try:

@@ -24,6 +24,9 @@ def span_of(
     low, high = (hint.bounds.low, hint.bounds.high) if hint.bounds else (-math.inf, math.inf)
     held = [float(each) for each in (value, default) if _is_number(each)]
     ends = useful
+    if ends is not None and held and held[0] > ends[1]:
+        # What is larger than pleases, as where motifs are drawn in mm, can be made larger still.
+        ends = ends[0], min(high, _round_up(1.5 * held[0]))
     if ends is None and angle:
         ends = max(low, -TURNED), min(high, TURNED)
     if ends is None and hint.base is int and high - low <= FEW:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import contextlib
 import os
 import shutil
@@ -21,9 +22,9 @@ SECONDS = 90_000
 class Studio:
     """The command, running, with a library and a state of its own."""
 
-    def __init__(self, folder: Path, *arguments: str) -> None:
+    def __init__(self, folder: Path, *arguments: str, library: Path | None = None) -> None:
         environment = os.environ | {
-            "BATIK_LIBRARY": str(folder / "library"),
+            "BATIK_LIBRARY": str(library or folder / "library"),
             "BATIK_STUDIO": str(folder / "state"),
             "PYTHONUNBUFFERED": "1",
         }
@@ -52,10 +53,10 @@ class Studio:
 
 
 @contextlib.contextmanager
-def studio(folder: Path, *arguments: str) -> Iterator[Studio]:
-    """Start a studio, and end it."""
+def studio(folder: Path, *arguments: str, library: Path | None = None) -> Iterator[Studio]:
+    """Start a studio, and end it; it has a library of its own where none is given."""
     folder.mkdir(exist_ok=True)
-    made = Studio(folder, *arguments)
+    made = Studio(folder, *arguments, library=library)
     try:
         yield made
     finally:
@@ -121,6 +122,17 @@ class Page:
         self.page.locator(".bar").get_by_role("button", name=title, exact=True).click()
         self.page.get_by_role("menuitem", name=item).click()
 
+    def save_as(self, name: str) -> None:
+        """Save to the library under a name."""
+        self.menu("File", "Save as")
+        self.page.get_by_label("Name", exact=True).fill(name)
+        self.page.get_by_role("button", name="Save", exact=True).click()
+
+    def set(self, path: str, value: object) -> None:
+        """Type a value into the field of a key."""
+        self.field(path).fill(str(value))
+        self.field(path).press("Enter")
+
     def tab(self, name: str) -> None:
         """Turn to a tab of either side."""
         self.page.get_by_role("tab", name=name).click()
@@ -140,12 +152,14 @@ class Page:
         self.page.locator(".left .pattern", has_text=title).first.click()
         self.page.locator(".bar .title", has_text=title).wait_for()
 
-    def drop(self, name: str, text: str) -> None:
+    def drop(self, name: str, data: str | bytes) -> None:
         """Drop a file on the page."""
+        sent = base64.b64encode(data.encode() if isinstance(data, str) else data).decode()
         handle = self.page.evaluate_handle(
-            "([name, text]) => { const data = new DataTransfer();"
-            " data.items.add(new File([text], name)); return data; }",
-            [name, text],
+            "([name, sent]) => { const data = new DataTransfer();"
+            " const bytes = Uint8Array.from(atob(sent), (each) => each.charCodeAt(0));"
+            " data.items.add(new File([bytes], name)); return data; }",
+            [name, sent],
         )
         self.page.dispatch_event("body", "drop", {"dataTransfer": handle})
 

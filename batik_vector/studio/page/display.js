@@ -74,7 +74,7 @@ window.studio = (() => {
     if (!head.certified) verdict("", true);
     applyLayers();
     if (fresh || fitted) fit(); else draw();
-    requestAnimationFrame(() => { token.shown++; token.at = performance.now(); });
+    requestAnimationFrame(() => { token.shown++; token.at = performance.now(); token.first ??= token.at; });
   }
 
   function verdict(words, good) {

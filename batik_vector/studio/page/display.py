@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import asyncio
 import json
+import time
 from collections.abc import Callable
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from nicegui import background_tasks, ui
 
-from batik_vector.errors import BatikError
+from batik_vector.errors import BatikError, Fault
 from batik_vector.studio.asking import View
 from batik_vector.studio.page.live import Live
-from batik_vector.studio.page.parts import group, icon_button, say, text, toggled, word_button
+from batik_vector.studio.page.parts import Soon, group, icon_button, say, text, toggled, word_button
 from batik_vector.studio.page.slide import Slide
 
 if TYPE_CHECKING:
@@ -59,6 +60,8 @@ class Display:
         self._stage = ""
         self._wanted: tuple[Draft, View, int] | None = None
         self._slow = False
+        self._took = self._since = 0.0
+        self._again = Soon(self._say_busy)
         self._stem = ""
         self._turned = False
         self._certified: Draft | None = None
@@ -129,6 +132,7 @@ class Display:
         if draft.stem == self._stem or draft.faults:
             return
         self._stem = draft.stem
+        self._took = 0.0
         cloth = draft.recipe.tile is None or bool(draft.recipe.border)
         if cloth and self.view == "tile":
             self.view, self._turned = "yardage", True
@@ -162,6 +166,8 @@ class Display:
             background_tasks.create(self._ask(draft, view))
 
     async def _ask(self, draft: Draft, view: View) -> None:
+        if not self.busy.visible:
+            self._since = time.monotonic()
         self._asked += 1
         mine = self._asked
         alarm = asyncio.get_running_loop().call_later(SLOW, lambda: self._tell_busy(mine))
@@ -171,8 +177,12 @@ class Display:
             alarm.cancel()
         if mine == self._asked:
             self._show_busy(False)
-        if picture is not None and not self.client.is_deleted:
+        if self.client.is_deleted:
+            return
+        if picture is not None:
             self._show(picture)
+        elif mine == self._asked:
+            self._tell_faults((Fault("cancelled"),))
 
     def _tell_busy(self, asked: int) -> None:
         if asked == self._asked:
@@ -181,26 +191,37 @@ class Display:
     def _tell_stage(self, stage: str) -> None:
         self._stage = stage
         if self.busy.visible:
-            say(self.stage_words, stage)
+            self._say_busy()
+
+    def _say_busy(self) -> None:
+        """Tell what is done, for how long by now, and how long the last picture took."""
+        if not self.busy.visible or self.client.is_deleted:
+            return
+        usual = f" of about {self._took:.0f} s" if self._took > SLOW else " so far"
+        say(self.stage_words, f"{self._stage or 'waiting'}, {time.monotonic() - self._since:.0f} s{usual}")
+        self._again(1.0)
 
     def _show_busy(self, on: bool) -> None:
-        if on:
-            say(self.stage_words, self._stage)
         if self.busy.visible != on:
             self.busy.set_visibility(on)
+        if on:
+            self._say_busy()
 
     def _stop(self) -> None:
-        self.session.images.cancel(self.client.id)
+        # All tabs show one draft, and wait for one process.
+        for lane in list(self.session.tabs):
+            self.session.images.cancel(lane)
 
     def _show(self, picture: Picture) -> None:
         before = self.session.faults
         self.session.compiled(picture)
         if self.session.faults != before:
             self._told()
-        self._tell_faults(picture)
+        self._tell_faults(picture.faults)
         if not picture.svg:
             return
-        self._slow = picture.seconds > FOLLOWS
+        self._took = picture.seconds
+        self._slow = self._took > FOLLOWS
         facts = picture.facts
         width, height = facts["cell_mm"]
         # Told by the picture's own way, for the page's elements would keep the browser busy.
@@ -217,8 +238,7 @@ class Display:
             self._verdict.cancel()
         self._verdict = background_tasks.create(self._certify(picture))
 
-    def _tell_faults(self, picture: Picture) -> None:
-        told = picture.faults
+    def _tell_faults(self, told: tuple[Fault, ...]) -> None:
         if self.faults.visible != bool(told):
             self.faults.set_visibility(bool(told))
         if not told:

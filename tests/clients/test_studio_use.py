@@ -1,0 +1,156 @@
+"""The studio as people use it beside the usual: keys alone, several at once, what takes long, and Firefox."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+pytest.importorskip("nicegui", reason="make test-clients installs the studio")
+
+from batik_vector.studio.drafts import Draft
+from tests.clients.studio import Page, Studio, browser, studio
+from tests.clients.test_studio import PETAL, ROOT, compiled
+
+pytestmark = pytest.mark.clients
+
+FLOWER = ROOT / "samples" / "four-square.toml"
+
+
+@pytest.fixture(scope="module")
+def chromium() -> Iterator[Any]:
+    with browser() as found:
+        yield found
+
+
+@pytest.fixture(scope="module")
+def shared(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Studio]:
+    """One studio for all that leaves it as it was."""
+    with studio(tmp_path_factory.mktemp("studio") / "own", str(FLOWER)) as made:
+        yield made
+
+
+@pytest.fixture
+def opened(chromium: Any, shared: Studio) -> Iterator[Page]:
+    made = Page(chromium, shared.address)
+    yield made
+    made.page.context.close()
+
+
+def test_keys_alone_reach_every_control_and_the_focus_is_seen(opened: Page) -> None:
+    page = opened.page
+    page.wait_for_selector(".left .pattern")
+    # Rings that grow are seen once they have grown.
+    page.emulate_media(reduced_motion="reduce")
+    page.evaluate(WATCHED)
+    for _ in range(400):
+        page.keyboard.press("Tab")
+        if page.evaluate("seen.round"):
+            break
+    missed, unseen = page.evaluate(TOLD)
+    assert (missed, unseen) == ([], [])
+
+
+WATCHED = """
+() => {
+  window.seen = { all: new Set(), dull: [], first: null, round: false };
+  const parts = ".q-field__control, .q-checkbox__inner, .q-toggle__inner";
+  const ring = (look) => (look.outlineStyle !== "none" && parseFloat(look.outlineWidth) > 0)
+    || look.boxShadow !== "none" || (look.content !== "none" && look.borderTopWidth === "2px");
+  document.addEventListener("focusin", (event) => {
+    const at = event.target;
+    if (at === seen.first) seen.round = true;
+    seen.first ??= at;
+    seen.all.add(at);
+    const around = at.closest(".q-field, .q-checkbox, .q-toggle") || at;
+    const marked = [at, at.shadowRoot && at.shadowRoot.activeElement, ...around.querySelectorAll(parts)]
+      .filter(Boolean)
+      .some((each) => ring(getComputedStyle(each)) || ring(getComputedStyle(each, "::after")));
+    if (!marked) seen.dull.push(at.outerHTML.slice(0, 160));
+  });
+}
+"""
+TOLD = """
+() => {
+  const able = [...document.querySelectorAll("button, a[href], input, textarea, [tabindex='0']")]
+    .filter((each) => each.checkVisibility({ visibilityProperty: true }))
+    .filter((each) => !each.disabled && each.tabIndex >= 0 && !seen.all.has(each));
+  return [able.map((each) => each.outerHTML.slice(0, 160)), [...new Set(seen.dull)]];
+}
+"""
+
+
+def test_two_tabs_and_two_studios_lose_nothing_to_one_another(chromium: Any, tmp_path: Path) -> None:
+    library = tmp_path / "library"
+    with (
+        studio(tmp_path / "one", str(FLOWER), library=library) as mine,
+        studio(tmp_path / "other", str(FLOWER), library=library) as other,
+    ):
+        page, beside = Page(chromium, mine.address), Page(chromium, mine.address)
+        begun = page.picture()
+        assert beside.picture() == begun
+        page.slider(PETAL).wait_for()
+        page.set(PETAL, 0.9)
+        assert beside.settled(begun) == page.settled(begun)
+        page.save_as("ours")
+        page.page.locator(".chip", has_text="ours@1").wait_for()
+        beside.page.locator(".chip", has_text="ours@1").wait_for()
+
+        away = Page(chromium, other.address)
+        away.slider(PETAL).wait_for()
+        away.save_as("ours")
+        newer = away.page.get_by_role("dialog", name="There is a newer version")
+        newer.get_by_text("version 1").wait_for()
+        newer.get_by_role("button", name="Cancel").click()
+        away.choose("ours", "Four-square flower")
+        away.page.locator(".chip", has_text="ours@1").wait_for()
+        away.slider(PETAL).wait_for()
+        away.set(PETAL, 0.7)
+        away.page.locator(".chip", has_text="changed").wait_for()
+        away.page.get_by_role("button", name="Save to the library").click()
+        away.page.locator(".chip", has_text="ours@2").wait_for()
+
+        before = page.picture()
+        page.set(PETAL, 0.8)
+        page.settled(before)
+        page.page.get_by_role("button", name="Save to the library").click()
+        newer = page.page.get_by_role("dialog", name="There is a newer version")
+        newer.get_by_text("version 2").wait_for()
+        newer.get_by_role("button", name="Save over it").click()
+        page.page.locator(".chip", has_text="ours@3").wait_for()
+        page.tab("Versions")
+        page.page.locator(".versioned").nth(2).wait_for()
+        assert page.page.locator(".versioned").count() == 3
+        assert not (page.errors + beside.errors + away.errors)
+
+
+def test_what_takes_minutes_is_stopped_and_the_page_answers_meanwhile(opened: Page) -> None:
+    page = opened
+    page.slider(PETAL).wait_for()
+    before = page.picture()
+    slow = Draft.read(ROOT / "samples" / "toss-leaves.toml").with_value("tile.size", ["1200 mm", "1200 mm"])
+    page.drop("slow.toml", slow.text)
+    page.page.locator(".busy", has_text="so far").wait_for()
+    page.tab("Recipe")
+    page.page.locator(".cm-content", has_text="Tossed leaves").wait_for()
+    assert page.picture() == before
+    # Who comes too late, on a machine that has much to do, finds it stopped for taking too long.
+    page.page.evaluate("document.querySelector('.busy button').click()")
+    page.page.locator(".faults", has_text=re.compile("cancelled|took longer")).wait_for()
+    page.page.get_by_role("button", name="Undo").click()
+    page.page.locator(".faults").wait_for(state="hidden")
+    assert page.settled() == before
+
+
+@pytest.mark.parametrize("format", ["pdf", "dxf"])
+def test_a_file_that_was_compiled_is_its_recipe_again(opened: Page, tmp_path: Path, format: str) -> None:
+    before = opened.picture()
+    ((name, data),) = compiled(ROOT / "samples" / "kawung.toml", tmp_path / "out", format).items()
+    opened.drop(name, data)
+    opened.page.locator(".bar .title", has_text="Kawung").wait_for()
+    after = opened.settled(before)
+    opened.page.get_by_role("button", name="Undo").click()
+    assert opened.settled(after) == before
