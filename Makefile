@@ -16,7 +16,7 @@ WORKERS := -n auto --maxprocesses 8 --dist worksteal
 export PYTHON VENV LOWEST
 unexport PYTHONPATH PYTHONHOME VIRTUAL_ENV
 
-.PHONY: help demo studio test test-clients test-long test-pythons test-lowest test-bare lint format bench golden docs setup clean
+.PHONY: help demo studio inkscape-extension test test-clients test-long test-pythons test-lowest test-bare lint format bench golden docs setup clean
 
 help: ## list these verbs
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' $(firstword $(MAKEFILE_LIST)) | expand -t 22
@@ -26,6 +26,10 @@ demo: $(READY) ## compile samples/four-square.toml to SVG, PDF, DXF and PNG in o
 
 studio: $(STUDIO_READY) ## open the studio in the browser
 	$(BIN)/batik-vector studio
+
+inkscape-extension: ## pack the extension for Inkscape: out/batik-vector-inkscape.zip
+	@mkdir -p out
+	cd inkscape && $(PYTHON) -m zipfile -c ../out/batik-vector-inkscape.zip batik_tile.inx batik_tile.py
 
 test: $(TOOLS_READY) ## run the tests; ONLY="tests/tiling tests/export": only those
 	$(PY) -m pytest $(WORKERS) -rs $(ONLY)
