@@ -161,9 +161,10 @@ def test_what_is_wrong_is_told_and_nothing_written(recipe: Path, process: str, w
     assert not (recipe.parent / "out").exists()
 
 
-def two_inks(gap: float = 0.0) -> Artwork:
-    """A square of one ink that is cut out of another; there is cloth on the left and on the right."""
-    light = geometries(shapely.difference(shapely.box(2, 2, 18, 18), shapely.box(6, 6, 14, 14)))
+def two_inks(gap: float = 0.0, frame: float = 4.0) -> Artwork:
+    """A square of one ink that is cut out of another, which frames it on bare cloth."""
+    around = shapely.box(6 - frame, 6 - frame, 14 + frame, 14 + frame)
+    light = geometries(shapely.difference(around, shapely.box(6, 6, 14, 14)))
     dark = geometries(shapely.box(6 - gap, 6 - gap, 14 + gap, 14 + gap))
     return Artwork(
         "two",
@@ -182,6 +183,9 @@ def test_ink_out_of_register_bares_what_a_trap_covers() -> None:
     bare = off(two_inks(), shifts={"dark": (0.3, 0.1)}).facts["misregister"]["bare_mm2"]
     # A strip on the left and one below, but for the corner that both have.
     assert bare == pytest.approx(8 * 0.3 + 8 * 0.1 - 0.3 * 0.1, abs=1e-3)
+    # A narrow frame, but broader than the ink is off, keeps bare cloth apart all the same.
+    thin = off(two_inks(frame=0.8), shifts={"dark": (0.3, 0.1)}).facts["misregister"]["bare_mm2"]
+    assert thin == pytest.approx(bare, abs=1e-3)
     assert off(two_inks(0.3), shifts={"dark": (0.3, 0.1)}).facts["misregister"]["bare_mm2"] == 0
 
 
@@ -194,7 +198,7 @@ def test_seeds_give_directions_and_the_first_ink_stays() -> None:
 
 def test_a_shifted_tile_is_a_tile_and_loses_nothing() -> None:
     whole = compile_recipe_of(RECIPE)
-    done = off(whole, by=1.3, seed=4)
+    done = off(whole, shifts={"indigo": (3.1, 4.6), "lines": (-1.2, 0.7)})
     assert certify(done).passed
     for before, after in zip(whole.layers[:2], done.layers[:2], strict=True):
         assert shapely.area(after.areas).sum() == pytest.approx(shapely.area(before.areas).sum(), abs=0.02)
