@@ -243,5 +243,12 @@ def _share_corners(parts: Geometries, lines: Geometries) -> NDArray[np.bool_]:
     """Return which parts have a corner in the same place as any of some lines."""
     coords, part = shapely.get_coordinates(parts, return_index=True)
     corners = shapely.get_coordinates(lines)
-    found = np.isin(coords @ (1.0, 1j), corners @ (1.0, 1j))
+    if not len(corners):
+        return np.zeros(len(parts), bool)
+    # Corners of stretches are whole steps, and numbers are found faster than pairs.
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    among = np.flatnonzero(((coords == np.rint(coords)) & (coords >= low) & (coords <= high)).all(axis=1))
+    span = int(high[1] - low[1]) + 1
+    one, other = ((xy - low).astype(np.int64) @ (span, 1) for xy in (coords[among], corners))
+    found = among[np.isin(one, other)]
     return np.bincount(part[found], minlength=len(parts)) > 0
