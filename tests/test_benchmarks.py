@@ -13,7 +13,7 @@ import shapely
 
 from batik_vector import compile_recipe, read_recipe, write_artwork
 from batik_vector.library import Library
-from benchmarks import cutting, library, limits, own, plotting, readback, stages, trailing
+from benchmarks import cutting, library, limits, own, plotting, readback, stages, trailing, trapping
 from benchmarks.acceptance import Row, rows
 from benchmarks.contests import SECTIONS, facts
 from benchmarks.contests.designing import SEARCHES
@@ -238,3 +238,11 @@ def test_every_way_of_searching_a_library_is_timed(
     with Library(tmp_path / library.FILE) as opened:
         assert len(opened.entries(own=True)) == 30
         assert opened.check() == []
+
+
+def test_the_design_of_traps_has_two_inks_that_meet_all_along() -> None:
+    artwork = trapping.design(196 * 12)
+    spots, ground = artwork.layers
+    assert artwork.vertex_count == 2 * 196 * 13 + 5
+    assert all(ground.areas[0].touches(spot) for spot in spots.areas)
+    assert trapping.trapped(artwork) > 0
