@@ -27,6 +27,10 @@ MIDDLE = 1e-4
 """How far from a place a ring's middle may lie that goes round it, as a share of the root of its area."""
 
 
+LEVEL = 1e-4
+"""Differences of reach up to which two points of a ring reach equally far, in the unit of the plane."""
+
+
 class Parts(NamedTuple):
     """Polygons, and the number of the region that each is a part of."""
 
@@ -80,13 +84,15 @@ def levels(parts: Parts, first: float, steps: Iterator[float]) -> Iterator[tuple
 
 class Rings(NamedTuple):
     """Closed curves round parts: points (n, 2) one after another, and of each ring where it begins, its
-    part, and into how many stretches alike its marks must divide it.
+    part, into how many stretches alike its marks must divide it, and how far on from its first point the
+    first of them lies.
     """
 
     points: Array
     first: Indices
     part: Indices
     turns: Indices
+    offset: Array
 
 
 def rings_of(parts: Parts, centres: Array, turns: int = 1) -> Rings:
@@ -114,7 +120,12 @@ def rings_of(parts: Parts, centres: Array, turns: int = 1) -> Rings:
     begin = order[first] - first
     place = np.arange(len(points)) - first[of]
     turned = first[of] + (place + begin[of]) % count[of]
-    return Rings(points[turned], first, part, np.where(about, turns, 1))
+    points, reach, last = points[turned], reach[turned], first + count
+    # An axis may cross an edge: then its two ends reach equally far.
+    ahead, behind = (points[first + 1] - points[first], points[last - 1] - points[first])
+    before = np.where(reach[first] - reach[last - 1] < LEVEL, -np.hypot(*behind.T) / 2, 0.0)
+    offset = np.where(reach[first] - reach[first + 1] < LEVEL, np.hypot(*ahead.T) / 2, before)
+    return Rings(points, first, part, np.where(about, turns, 1), offset)
 
 
 class Stations(NamedTuple):
@@ -141,7 +152,7 @@ def stations(rings: Rings, spacing: float) -> Stations:
     number[rings.turns == 1] = np.maximum(number[rings.turns == 1], 1)
     ring = np.repeat(np.arange(len(first)), number)
     share = np.arange(len(ring)) - np.repeat(np.cumsum(number) - number, number)
-    at = share * (total / np.maximum(number, 1))[ring]
+    at = rings.offset[ring] + share * (total / np.maximum(number, 1))[ring]
     turn = (number // rings.turns)[ring]
 
     def where(offset: float) -> Array:
