@@ -64,7 +64,7 @@ WINGS: dict[str, Floors] = {
         "generators",
         "ragged curves stretches inside arrangement",
         "bezier continuations maps",
-        "coincidence",
+        "coincidence fills",
         "ifs",
     ),
 }
