@@ -2,7 +2,11 @@
 
     .venv/bin/python -m tools.bounds                        # 50 values of each key between its bounds
     .venv/bin/python -m tools.bounds --values 2 --only toss --recipes kawung
+    .venv/bin/python -m tools.bounds --log bounds.jsonl     # goes on where the last call with this file ended
     .venv/bin/python -m tools.bounds --signals 100          # and the slowest stopped at random moments
+
+Every key is tried once before any is tried twice: first at its greatest in one of the recipes, then at its
+least, then both in the others, then at values between. What a log holds as good is not tried again.
 
 Each try is a process of its own that may hold 4 GB: it must write a file or refuse in words, and within 20
 seconds of its own time. What does neither is printed and makes the call fail. A value is set in the recipe as
@@ -14,7 +18,10 @@ from __future__ import annotations
 import argparse
 import collections
 import contextlib
+import dataclasses
 import io
+import itertools
+import json
 import math
 import os
 import random
@@ -44,6 +51,11 @@ class Try:
     value: float
 
     @property
+    def name(self) -> str:
+        """What it is called in a log."""
+        return f"{self.recipe} {self.key} {self.value!r}"
+
+    @property
     def text(self) -> str:
         """The recipe."""
         chance = random.Random(f"{self.recipe} {self.key} {self.value}")
@@ -67,13 +79,22 @@ class Outcome:
 
 
 def tries(recipes: Sequence[str], count: int, only: str) -> Iterator[Try]:
-    """Yield every try."""
-    for key in keys():
-        if only not in str(key):
-            continue
-        for recipe in recipes:
-            for value in key.values(count):
-                yield Try(recipe, key, value)
+    """Yield every try, in rounds: one of each key in every round, the keys in random order."""
+    chance = random.Random(0)
+    lists = [_of_key(key, recipes, count) for key in keys() if only in str(key)]
+    chance.shuffle(lists)
+    for turn in itertools.zip_longest(*lists):
+        yield from (each for each in turn if each is not None)
+
+
+def _of_key(key: Key, recipes: Sequence[str], count: int) -> list[Try]:
+    """Return the tries of a key: its greatest and its least in each recipe, then what lies between."""
+    chance = random.Random(str(key))
+    turned = chance.sample(recipes, len(recipes))
+    low, high, *between = dict.fromkeys(key.values(count))
+    bounds = [Try(recipe, key, value) for recipe in turned for value in (high, low)]
+    inner = [Try(recipe, key, value) for recipe in turned for value in between]
+    return bounds + chance.sample(inner, len(inner))
 
 
 def tried(each: Try, seconds: float, gigabytes: float) -> Outcome:
@@ -160,27 +181,40 @@ def main() -> int:
     parser.add_argument("--gigabytes", type=float, default=4.0, help="that a try may hold")
     parser.add_argument("--jobs", type=int, default=2, help="tries at a time")
     parser.add_argument("--signals", type=int, default=0, help="moments at which the slowest are stopped")
+    parser.add_argument("--log", type=Path, help="file of earlier outcomes, which grows by the new ones")
     parser.add_argument("--until", type=float, default=math.inf, help="seconds after which no try is begun")
     asked = parser.parse_args()
     _warm()
     begun = time.monotonic()
+    known = _logged(asked.log)
     work = list(tries(asked.recipes, asked.values, asked.only))
-    random.Random(0).shuffle(work)
-    found: list[tuple[Try, Outcome]] = []
+    found = [(each, known[each.name]) for each in work if each.name in known]
 
     def one(each: Try) -> None:
-        if time.monotonic() - begun > asked.until:
+        if each.name in known or time.monotonic() - begun > asked.until:
             return
         outcome = tried(each, asked.seconds, asked.gigabytes)
         found.append((each, outcome))
+        if asked.log:
+            with asked.log.open("a", encoding="utf-8") as log:
+                log.write(json.dumps({"try": each.name, **dataclasses.asdict(outcome)}) + "\n")
         if not outcome.is_good:
             print(_line(each, outcome), flush=True)
 
     with ThreadPoolExecutor(asked.jobs) as pool:
         list(pool.map(one, work))
     wrong = sum(not outcome.is_good for _, outcome in found)
-    _sum_up(found, len(work))
+    _sum_up(found, work)
     return 1 if wrong + (_signals(found, asked.signals) if asked.signals else 0) else 0
+
+
+def _logged(path: Path | None) -> dict[str, Outcome]:
+    """Return the good outcomes of a log by the names of their tries: what went wrong is tried again."""
+    if path is None or not path.exists():
+        return {}
+    rows = [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
+    outcomes = {row.pop("try"): Outcome(**row) for row in rows}
+    return {name: outcome for name, outcome in outcomes.items() if outcome.is_good}
 
 
 def _warm() -> None:
@@ -205,9 +239,19 @@ def _line(each: Try, outcome: Outcome) -> str:
     )
 
 
-def _sum_up(found: Sequence[tuple[Try, Outcome]], planned: int) -> None:
+def _sum_up(found: Sequence[tuple[Try, Outcome]], work: Sequence[Try]) -> None:
     kinds = collections.Counter(outcome.kind for _, outcome in found)
-    print(f"\n{len(found):,} tries of {planned:,}: {', '.join(f'{n:,} {kind}' for kind, n in kinds.items())}")
+    print(
+        f"\n{len(found):,} tries of {len(work):,}: {', '.join(f'{n:,} {kind}' for kind, n in kinds.items())}"
+    )
+    all_keys = {str(each.key) for each in work}
+    tried_keys = {
+        "keys": {str(each.key) for each, _ in found},
+        "at the greatest": {str(each.key) for each, _ in found if each.value == each.key.high},
+        "at the least": {str(each.key) for each, _ in found if each.value == each.key.low},
+    }
+    for words, names in tried_keys.items():
+        print(f"  {words}: {len(names)} of {len(all_keys)}")
     if not found:
         return
     print(f"most memory {max(outcome.megabytes for _, outcome in found):.0f} MB; the slowest:")

@@ -31,6 +31,9 @@ HOLES = (445, 1374, 125)
 ROUNDED = (1342,)
 """Gaps that missed the tolerance at some corners and not at their images, as GEOS rounds their chords."""
 
+DOUBLED = (1210,)
+"""Lines that lie on the seam and on their images beyond it, and end there at a gap."""
+
 SPREAD = range(7, 2000, 94)
 
 
@@ -52,6 +55,6 @@ def test_strips_and_crumbs_are_no_longer_left(number: int) -> None:
 
 
 @long
-@pytest.mark.parametrize("number", [*MORE, *BESIDE, *HOLES, *ROUNDED, *SPREAD][: examples(1, 40)])
+@pytest.mark.parametrize("number", [*MORE, *BESIDE, *HOLES, *ROUNDED, *DOUBLED, *SPREAD][: examples(1, 40)])
 def test_everyday_recipes_pass(number: int) -> None:
     passes(number)

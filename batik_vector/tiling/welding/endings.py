@@ -22,7 +22,7 @@ def own_ends(lines: Geometries, cell: Cell) -> Places:
         return set()
     lines = lines[~shapely.is_closed(lines)]
     ends = [shapely.get_coordinates(shapely.get_point(lines, at)) for at in (0, -1)]
-    return {(x, y) for x, y in _on_rim(np.vstack(ends), cell).tolist()}
+    return {(x, y) for x, y in _on_rim(np.vstack(ends), cell)[0].tolist()}
 
 
 def tips(lines: Geometries, cell: Cell) -> Places:
@@ -44,16 +44,23 @@ def tips(lines: Geometries, cell: Cell) -> Places:
     come, gone = coords[at] - coords[at - 1], coords[following[at]] - coords[at]
     level = come[:, 0] * gone[:, 1] == come[:, 1] * gone[:, 0]
     back = at[level & ((come * gone).sum(axis=1) < 0)]
-    return {(x, y) for x, y in _on_rim(coords[back], cell).tolist()}
+    return {(x, y) for x, y in _on_rim(coords[back], cell)[0].tolist()}
 
 
 def lone_ends(lines: Geometries, cell: Cell) -> Places:
-    """Return the places on the rim from which a single stretch of all lines runs: none goes on there."""
+    """Return the places on the rim from which all lines run in a single direction: none goes on there.
+
+    Lines that lie on one another, as the images of one beside a mirror may, count as one.
+    """
     coords, owner = shapely.get_coordinates(lines, return_index=True)
     inside = owner[1:] == owner[:-1]
-    ends = _on_rim(np.vstack([coords[:-1][inside], coords[1:][inside]]), cell)
-    places, counts = np.unique(ends, axis=0, return_counts=True)
-    return {(x, y) for x, y in places[counts == 1].tolist()}
+    begin, end = coords[:-1][inside], coords[1:][inside]
+    places, at = _on_rim(np.vstack([begin, end]), cell)
+    away: Steps = np.rint(np.vstack([end - begin, begin - end])[at]).astype(np.int64)
+    away //= np.maximum(np.gcd(away[:, 0], away[:, 1]), 1)[:, None]
+    directions = np.unique(np.column_stack([places, away]), axis=0)
+    lone, counts = np.unique(directions[:, :2], axis=0, return_counts=True)
+    return {(x, y) for x, y in lone[counts == 1].tolist()}
 
 
 def on_edges(lines: Geometries) -> list[tuple[int, int, int]]:
@@ -68,12 +75,13 @@ def on_edges(lines: Geometries) -> list[tuple[int, int, int]]:
     return found
 
 
-def _on_rim(points: NDArray[np.float64], cell: Cell) -> Steps:
-    """Return the places of those points that lie on the rim of the page, shape (n, 2)."""
+def _on_rim(points: NDArray[np.float64], cell: Cell) -> tuple[Steps, NDArray[np.intp]]:
+    """Return the places of those points that lie on the rim of the page, shape (n, 2), and their rows."""
     whole: Steps = np.rint(points).astype(np.int64)
     x, y = whole.T
     within = (x >= 0) & (x <= cell.columns) & (y >= 0) & (y <= cell.rows)
-    places: Steps = whole[within & ((x == 0) | (x == cell.columns) | (y == 0) | (y == cell.rows))]
+    at = np.flatnonzero(within & ((x == 0) | (x == cell.columns) | (y == 0) | (y == cell.rows)))
+    places: Steps = whole[at]
     (_, slip_y), (slip_x, _) = cell.lattice
     sides = ((0, cell.columns, slip_y), (1, cell.rows, slip_x))
     # The direction that drops comes first: what it moves along the other edge may reach the end of it.
@@ -82,4 +90,4 @@ def _on_rim(points: NDArray[np.float64], cell: Cell) -> Steps:
         places[far, axis] = 0
         places[far, 1 - axis] -= slip
         places[:, 1 - axis] %= sides[1 - axis][1]
-    return places
+    return places, at
