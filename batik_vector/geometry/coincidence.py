@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from functools import cached_property
 
@@ -13,6 +14,9 @@ from batik_vector.geometry import work
 from batik_vector.geometry.maps.affine import SIMILAR, Affine
 from batik_vector.geometry.maps.affines import Affines
 from batik_vector.geometry.sampling import Array, Geometries, Indices
+
+AT_ONCE = 50_000
+"""Pairs of geometries that are looked at one after the other."""
 
 
 def distinct(
@@ -118,9 +122,10 @@ class _Symmetry:
         # Onto itself in one direction is onto itself in both for a map of finite order; a motif of an
         # arc and a longer arc upon it tells the two apart, so ask both ways.
         for matrix in (linear, np.linalg.inv(linear)):
-            moved = _points(points @ matrix.T + self.centre)
-            hit = np.unique(tree.query(moved, predicate="dwithin", distance=reach)[0])
-            if len(hit) < len(moved):
+            places = points @ matrix.T
+            off = _points(places[~_close(places, points, reach)] + self.centre)
+            hit = np.unique(tree.query(off, predicate="dwithin", distance=reach)[0])
+            if len(hit) < len(off):
                 return False
             if _areal(self.parts[i]).any():
                 core = shapely.get_coordinates(inside) - self.centre
@@ -130,6 +135,21 @@ class _Symmetry:
                 if len(hit) < len(moved):
                     return False
         return True
+
+
+def _close(points: Array, others: Array, reach: float) -> NDArray[np.bool_]:
+    """Return which points surely have one of the others within reach: most have, and need no search.
+
+    What lies in one cell of a grid is no farther apart than its diagonal.
+    """
+    found = np.zeros(len(points), bool)
+    if not reach:
+        return found
+    side = reach / math.sqrt(2)
+    for shift in (0.25, 0.75):
+        cells, known = (np.floor(xy / side + shift) @ [1.0, 1j] for xy in (points, others))
+        found |= np.isin(cells, known)
+    return found
 
 
 def _points(coordinates: Array) -> Geometries:
@@ -174,17 +194,36 @@ def drawn_once(geometries: Geometries, reach: float) -> Indices:
     alike &= _areal(geometries)[later] == _areal(geometries)[earlier]
     pairs = np.column_stack([later[alike], earlier[alike]])
     work.spend_on_pairs(len(pairs))
+    pairs = pairs[np.lexsort((pairs[:, 0], pairs[:, 1]))]
+    outlines = np.where(_areal(geometries), shapely.boundary(geometries), geometries)
     drawn = np.zeros(count, bool)
-    for j, i in pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))].tolist():
-        if not drawn[j] and not drawn[i] and _same(geometries[i], geometries[j], reach):
-            drawn[j] = True
+    for first in range(0, len(pairs), AT_ONCE):
+        part = pairs[first : first + AT_ONCE]
+        while len(part := part[~drawn[part].any(axis=1)]):
+            # No earlier one can have drawn these: they are drawn, and all others are compared with them.
+            sure = ~np.isin(part[:, 1], part[:, 0])
+            asked, part = part[sure], part[~sure]
+            drawn[asked[_same(outlines, asked, reach), 0]] = True
     return np.flatnonzero(~drawn)
 
 
-def _same(one: shapely.Geometry, other: shapely.Geometry, reach: float) -> bool:
+def _same(outlines: Geometries, pairs: Indices, reach: float) -> NDArray[np.bool_]:
+    """Return which pairs of outlines, given by their numbers, have all vertices near each other's edges."""
+    shapely.prepare(outlines[np.unique(pairs)])
+    found = np.ones(len(pairs), bool)
+    one, other = pairs.T
+    # A single vertex tells most of those apart that differ.
     for a, b in ((one, other), (other, one)):
-        edges = shapely.boundary(a) if shapely.get_dimensions(a) == 2 else a
-        shapely.prepare(edges)
-        if not shapely.dwithin(edges, shapely.points(shapely.get_coordinates(b)), reach).all():
-            return False
-    return True
+        found[found] = shapely.dwithin(outlines[a[found]], _first(outlines[b[found]]), reach)
+    for a, b in ((one, other), (other, one)):
+        open_ = np.flatnonzero(found)
+        coords, of = shapely.get_coordinates(outlines[b[open_]], return_index=True)
+        near = shapely.dwithin(outlines[a[open_[of]]], _points(coords), reach)
+        found[open_[of[~near]]] = False
+    return found
+
+
+def _first(outlines: Geometries) -> Geometries:
+    """Return the first vertex of each outline, as points."""
+    coords, of = shapely.get_coordinates(outlines, return_index=True)
+    return _points(coords[np.flatnonzero(np.r_[True, of[1:] != of[:-1]][: len(of)])])

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from batik_vector.artwork import Geometries
 from batik_vector.geometry import work
+from batik_vector.tiling.torus.joining import joined_pairs
 from batik_vector.tiling.torus.remembered import Asked, as_array, interned
 
 SPECK = 0.25
@@ -142,7 +143,7 @@ def _by_pairs(areas: Geometries) -> shapely.Geometry:
         first, second = areas[: 2 * pairs : 2], areas[1 : 2 * pairs : 2]
         joined = []
         for batch in work.batches(shapely.get_num_coordinates(first) + shapely.get_num_coordinates(second)):
-            joined.append(np.asarray(shapely.union(first[batch], second[batch]), dtype=object))
+            joined.append(joined_pairs(first[batch], second[batch]))
             work.spend_on_union(np.concatenate([first[batch], second[batch]]), joined[-1])
         areas = np.concatenate([*joined, areas[2 * pairs :]])
     whole: shapely.Geometry = areas[0]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from functools import partial
 
@@ -14,11 +13,11 @@ from batik_vector.artwork import Geometries
 from batik_vector.errors import GeometryError, TooLargeError
 from batik_vector.geometry.maps.affine import IDENTITY, Affine
 from batik_vector.geometry.maps.affines import Affines, turns
-from batik_vector.geometry.sampling import Array
 from batik_vector.tiling.layouts.grounds import Toss
 from batik_vector.tiling.torus.torus import as_steps, to_mm
 from batik_vector.tiling.tossing.darts import Dice, Rules, Spacing, thrown
 from batik_vector.tiling.tossing.marks import Field, Kit, Poses
+from batik_vector.tiling.tossing.plan import Plan
 from batik_vector.tiling.tossing.scatter import Scatter, Torus
 from batik_vector.tiling.tossing.settling import settled
 from batik_vector.units import STEPS_PER_MM, format_mm
@@ -37,9 +36,6 @@ a bud between two petals as a bud."""
 ROUNDS = 3
 """How often marks are settled and the holes that this opens thrown at again."""
 
-USUAL_COVER = 0.62
-"""Share of the repeat that marks and half the distance round each cover when no more fit: about."""
-
 DENSEST = math.pi / math.sqrt(12)
 """Share of a plane that equal discs cover when they lie as close as they can: Thue's theorem."""
 
@@ -50,8 +46,12 @@ largest discs in them do not: discs came to 0.52 with the most darts and settlin
 MANY = 24
 """Marks from which chance decides, and not how a few happen to fit into the repeat."""
 
-NARROWING = 0.72
-"""What is left of the early distances from one throw to the next."""
+CERTAIN = 100
+"""Marks, images included, of which a throw says how many will fit: chance evens out."""
+
+SHORT, CHANCE = 0.965, 0.65
+"""Share of a count below which settling does not bring a full throw up to it, and what chance may take from
+that, over the root of the number of marks: settling added up to 0.03."""
 
 EARLY_TRIES = 150
 """Darts that must miss in a row before marks that are few are thrown closer together."""
@@ -216,121 +216,67 @@ def _rules(spec: Toss, motifs: int) -> Rules:
 def _filled(scatter: Scatter, spec: Toss, marks: Marks, dice: Dice) -> int:
     """Throw and settle until the scatter is as the spec asks; return how many darts that took."""
     rules = _rules(spec, len(marks.names))
-    plan = _Plan.of(spec, marks, rules, scatter)
-    darts = _thrown_and_settled(scatter, spec, rules, dice, plan, plan.early(spec.distance * STEPS_PER_MM))
+    plan = Plan.of(spec, marks.bodies, rules, scatter)
+    distance = spec.distance * STEPS_PER_MM
+    darts = 0
+    for spacing, kind in plan.early(distance):
+        darts += thrown(scatter, rules, dice, spacing, EARLY_TRIES, partial(plan.of_kind, kind))
+    darts += thrown(scatter, rules, dice, Spacing(distance, distance), spec.tries, plan.wanted)
+    _check_hope(scatter, spec, rules, plan)
+    darts += _settled(scatter, spec, rules, dice, plan)
     if spec.count is not None and len(scatter) < spec.count:
         # Marks that began far apart waste room that a count close to the most that fit cannot spare.
         poses, field = scatter.poses, scatter.field
-        scatter.set(Poses.none(), field.take(np.empty(0, np.intp)), 0.0)
-        darts += _thrown_and_settled(scatter, spec, rules, dice, plan, ())
+        _clear(scatter)
+        darts += thrown(scatter, rules, dice, Spacing(distance, distance), spec.tries, plan.wanted)
+        darts += _settled(scatter, spec, rules, dice, plan)
         if len(poses) >= len(scatter):
             scatter.set(poses, field, 0.0)
     return darts
 
 
-def _thrown_and_settled(
-    scatter: Scatter,
-    spec: Toss,
-    rules: Rules,
-    dice: Dice,
-    plan: _Plan,
-    early: Iterable[tuple[Spacing, int]],
-) -> int:
+def _settled(scatter: Scatter, spec: Toss, rules: Rules, dice: Dice, plan: Plan) -> int:
+    """Settle in rounds and throw at the holes that this opens; return how many darts that took."""
     distance = spec.distance * STEPS_PER_MM
     darts = 0
-    for spacing, kind in early:
-        darts += thrown(scatter, rules, dice, spacing, EARLY_TRIES, partial(plan.of_kind, kind))
-    last = Spacing(distance, distance)
-    darts += thrown(scatter, rules, dice, last, spec.tries, plan.wanted)
     for number in range(ROUNDS if spec.settle else 0):
         settled(scatter, rules, dice, distance, _part(spec.settle, ROUNDS, number))
-        darts += thrown(scatter, rules, dice, last, spec.tries, plan.wanted)
+        darts += thrown(scatter, rules, dice, Spacing(distance, distance), spec.tries, plan.wanted)
     return darts
+
+
+def _clear(scatter: Scatter) -> None:
+    scatter.set(Poses.none(), scatter.field.take(np.empty(0, np.intp)), 0.0)
+
+
+def _check_hope(scatter: Scatter, spec: Toss, rules: Rules, plan: Plan) -> None:
+    """Refuse a count that a throw at the least distance on the empty repeat falls far short of.
+
+    It has chances of its own: what is not refused comes out as if it had not been thrown.
+    """
+    first = len(scatter)
+    images = (spec.count or 0) * len(scatter.torus.operations)
+    if spec.count is None or images < CERTAIN:
+        return
+    short = (SHORT - CHANCE / math.sqrt(images)) * spec.count
+    if not 0 < first < short:
+        return
+    poses, field = scatter.poses, scatter.field
+    _clear(scatter)
+    distance = spec.distance * STEPS_PER_MM
+    thrown(scatter, rules, Dice(0), Spacing(distance, distance), spec.tries, plan.wanted)
+    most = max(first, len(scatter))
+    if most < short:
+        raise GeometryError(
+            f"count = {spec.count}: about {most} fit at a distance of {format_mm(spec.distance)} mm, "
+            "expected that many, or smaller marks"
+        )
+    scatter.set(poses, field, 0.0)
 
 
 def _part(total: int, parts: int, number: int) -> int:
     """Return the share of a whole number that one of several parts has."""
     return total * (number + 1) // parts - total * number // parts
-
-
-@frozen
-class _Plan:
-    """How many marks of each motif are wanted, and which come first.
-
-    ``area`` is that of the repeat and ``areas`` those of the marks of each motif, with their images under
-    the symmetry, at their usual size; ``bodies`` the same of what is drawn, at the least size. ``quota`` is
-    what is asked of each motif, perhaps infinite; ``likely`` about how many there will be; ``fill`` which
-    share of the area is to be covered.
-    """
-
-    area: float
-    areas: Array
-    bodies: Array
-    quota: Array
-    likely: Array
-    fill: float | None
-
-    @staticmethod
-    def of(spec: Toss, marks: Marks, rules: Rules, scatter: Scatter) -> _Plan:
-        images = len(scatter.torus.operations)
-        low, high = rules.size
-        usual = (low * low + low * high + high * high) / 3 * images
-        areas = shapely.area(scatter.kit.outlines) * usual
-        bodies = shapely.area(marks.bodies) * STEPS_PER_MM**2 * images
-        quota, fill = np.full(len(areas), np.inf), spec.fill
-        if spec.count is not None:
-            likely = quota = _apportioned(spec.count, rules.weights)
-        else:
-            gap = spec.distance * STEPS_PER_MM
-            room = float(rules.weights @ (np.sqrt(areas / images) + gap) ** 2) * images
-            likely = rules.weights * scatter.torus.area * USUAL_COVER / room
-        if fill is not None:
-            drawn = float(rules.weights @ bodies) * usual / images
-            likely = np.minimum(likely, rules.weights * fill * scatter.torus.area / drawn)
-        return _Plan(scatter.torus.area, areas, bodies, quota, likely, fill)
-
-    def wanted(self, there: Poses) -> Array:
-        """Return how many more of each motif are wanted."""
-        lacks = self.quota - np.bincount(there.motif, minlength=len(self.quota))
-        if self.fill is None:
-            return np.asarray(lacks)
-        more = self.fill * self.area - float((self.bodies[there.motif] * there.size**2).sum())
-        # Half a mark too many is as good as half a mark too few.
-        return np.minimum(lacks, np.floor(more / self.bodies + 0.5))
-
-    def of_kind(self, kind: int, there: Poses) -> Array:
-        """Return how many more are wanted of one motif before all come at once."""
-        lacks = np.minimum(
-            self.wanted(there), np.ceil(self.likely) - np.bincount(there.motif, minlength=len(self.quota))
-        )
-        return np.where(np.arange(len(lacks)) == kind, lacks, 0.0)
-
-    def early(self, distance: float) -> Iterator[tuple[Spacing, int]]:
-        """Yield the spacings, wide to narrow, in which motifs are thrown one after another, large ones first.
-
-        Thrown at the least distance at once, few marks would lie in clusters with holes between them, and
-        marks of one motif would gather.
-        """
-        if len(self.areas) == 1 and self.quota[0] == math.inf and self.fill is None:
-            return
-        total = float(self.likely.sum())
-        breadth = 2 * np.sqrt(self.areas / math.pi)
-        between = math.sqrt(self.area / total) - 0.8 * float(self.likely @ breadth) / total
-        for kind in np.argsort(-self.areas, kind="stable").tolist():
-            kin = math.sqrt(self.area / max(self.likely[kind], 1e-9)) - 0.8 * float(breadth[kind])
-            share = 1.0
-            while share * kin > 1.05 * distance and share > 0.1:
-                general = max(distance, share * between)
-                yield Spacing(general, max(general, share * kin)), kind
-                share *= NARROWING
-
-
-def _apportioned(count: int, weights: Array) -> Array:
-    """Return whole numbers that add up to a count, nearest to its shares by weight."""
-    shares = weights * count
-    whole = np.floor(shares)
-    whole[np.argsort(whole - shares, kind="stable")[: count - int(whole.sum())]] += 1
-    return np.asarray(whole)
 
 
 def _check_count(spec: Toss, scatter: Scatter, marks: Marks) -> None:

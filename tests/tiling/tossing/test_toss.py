@@ -261,6 +261,19 @@ def test_what_can_fit_is_tried(count: int, side: float) -> None:
     assert sum(tossed.report.counts) == count
 
 
+def test_what_falls_far_short_is_refused_before_it_is_settled(monkeypatch: pytest.MonkeyPatch) -> None:
+    disc, cell = shapely.Point(0, 0).buffer(1.0), Cell(50_000, 50_000)
+    # Discs with half the distance round them would cover 0.57 of the repeat, then 0.42.
+    fits = toss(Toss(count=150), marks(disc), torus(cell), NOTHING, 1)
+    assert sum(fits.report.counts) == 150
+    monkeypatch.delattr("batik_vector.tiling.tossing.toss.settled")
+    with pytest.raises(
+        GeometryError, match=r"count = 200: about 1[678]\d fit at a distance of 1 mm"
+    ) as caught:
+        toss(Toss(count=200), marks(disc), torus(cell), NOTHING, 1)
+    assert "expected that many, or smaller marks" in str(caught.value)
+
+
 def test_what_cannot_fit_is_refused_with_what_does() -> None:
     with pytest.raises(GeometryError, match=r"count = 22: only (\d+) fit") as caught:
         toss(Toss(count=22, tries=200, settle=0), marks(BEAN), torus(), NOTHING, 1)
