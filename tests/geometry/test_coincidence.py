@@ -10,8 +10,10 @@ from batik_vector.geometry import coincidence
 from batik_vector.geometry.coincidence import drawn_once
 
 
-def same(one: shapely.Geometry, other: shapely.Geometry, reach: float) -> bool:
-    edges = [shapely.boundary(each) if each.geom_type == "Polygon" else each for each in (one, other)]
+def same(
+    one: shapely.Polygon | shapely.LineString, other: shapely.Polygon | shapely.LineString, reach: float
+) -> bool:
+    edges = [shapely.boundary(each) if isinstance(each, shapely.Polygon) else each for each in (one, other)]
     return all(
         bool(shapely.dwithin(edges[a], shapely.points(shapely.get_coordinates(edges[1 - a])), reach).all())
         for a in (0, 1)
