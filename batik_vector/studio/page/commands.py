@@ -12,7 +12,7 @@ from batik_vector.studio.mirroring import mirrored
 from batik_vector.studio.page import dialogs
 from batik_vector.studio.page.exploring import explore
 from batik_vector.studio.page.exporting import export
-from batik_vector.studio.page.parts import icon_button, telling, word_button
+from batik_vector.studio.page.parts import icon_button, report, telling, word_button
 
 if TYPE_CHECKING:
     from batik_vector.studio.page.session import Session
@@ -105,7 +105,7 @@ class Commands:
 
     def _copy(self) -> None:
         ui.clipboard.write(self.session.draft.whole)
-        ui.notify("The recipe is on the clipboard.")
+        report("The recipe is on the clipboard.")
 
 
 MENUS: dict[str, tuple[tuple[str, str, str] | None, ...]] = {

@@ -11,7 +11,16 @@ from nicegui import ui
 from batik_vector.errors import BatikError
 from batik_vector.studio import changes
 from batik_vector.studio.page.library import Thumb
-from batik_vector.studio.page.parts import group, icon_button, main_button, say, text, told, word_button
+from batik_vector.studio.page.parts import (
+    group,
+    icon_button,
+    main_button,
+    report,
+    say,
+    text,
+    told,
+    word_button,
+)
 from batik_vector.studio.saving import NewerError
 
 if TYPE_CHECKING:
@@ -70,7 +79,7 @@ async def saved(session: Session, name: str, tags: Sequence[str] = (), note: str
         BatikError: where it cannot be saved.
     """
     try:
-        ui.notify(await session.save(name, tags, note), type="positive")
+        report(await session.save(name, tags, note))
     except NewerError as error:
         _ask_over(session, name, str(error))
 
@@ -81,7 +90,7 @@ def _ask_over(session: Session, name: str, words: str) -> None:
 
         async def over() -> None:
             with told():
-                ui.notify(await session.save(name, over=True), type="positive")
+                report(await session.save(name, over=True))
             made.close()
 
         buttons(made, "Save over it", over)

@@ -12,7 +12,7 @@ from batik_vector.machines import MACHINES
 from batik_vector.studio.asking import Wishes
 from batik_vector.studio.exports import Exported, download
 from batik_vector.studio.page.dialogs import dialog
-from batik_vector.studio.page.parts import group, main_button, say, text, word_button
+from batik_vector.studio.page.parts import group, main_button, report, say, text, word_button
 from batik_vector.studio.pictures import EXPORT
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 USUAL = ("svg", "pdf")
 """What is ticked where a recipe asks for no files."""
 NONE = "none"
-LABELS = {"gcode": "G-code"}
+LABELS = {"gcode": "G-code", "swatch": "Swatch"}
 """What formats are called whose names are not their letters."""
 
 
@@ -112,7 +112,7 @@ class Exporting:
         name, data = download(Exported(files), self.draft.stem)
         number = self.session.keep_file(name, data)
         ui.download.from_url(f"/studio/download/{number}")
-        ui.notify(f"{name}, {len(data) / 1e3:,.0f} kB, {time.perf_counter() - begun:.1f} s", type="positive")
+        report(f"{name}, {len(data) / 1e3:,.0f} kB, {time.perf_counter() - begun:.1f} s")
         self.made.close()
 
     def _tell(self, stage: str) -> None:

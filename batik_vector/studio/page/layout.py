@@ -11,7 +11,17 @@ from batik_vector.studio.page.commands import Commands
 from batik_vector.studio.page.controls import Controls
 from batik_vector.studio.page.display import Display
 from batik_vector.studio.page.library import LibraryPanel, VersionsPanel
-from batik_vector.studio.page.parts import Soon, complain, group, icon_button, main_button, say, text, told
+from batik_vector.studio.page.parts import (
+    Soon,
+    complain,
+    group,
+    icon_button,
+    main_button,
+    report,
+    say,
+    text,
+    told,
+)
 from batik_vector.studio.page.recipe_text import RecipeText
 
 if TYPE_CHECKING:
@@ -67,7 +77,7 @@ class Page:
         client.on_connect(self._look_at_screen)
         ui.on("studio-pasted", self._pasted)
         ui.on("studio-refused", lambda event: complain(str(event.args)))
-        ui.on("studio-dropped", lambda event: ui.notify(str(event.args), type="positive"))
+        ui.on("studio-dropped", lambda event: report(str(event.args)))
         self.display.refresh()
         self._show_rest()
 

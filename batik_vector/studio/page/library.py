@@ -8,7 +8,7 @@ from urllib.parse import quote
 from nicegui import background_tasks, ui
 
 from batik_vector.errors import BatikError
-from batik_vector.studio.page.parts import group, say, telling, text, word_button
+from batik_vector.studio.page.parts import group, report, say, telling, text, word_button
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -153,4 +153,4 @@ class VersionsPanel:
                 word_button("Restore", telling(lambda: self._restore(reference)), icon="history")
 
     async def _restore(self, reference: str) -> None:
-        ui.notify(await self.session.restore(reference), type="positive")
+        report(await self.session.restore(reference))

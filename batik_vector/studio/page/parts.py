@@ -50,7 +50,12 @@ def told() -> Iterator[None]:
 
 def complain(words: str) -> None:
     """Tell what is wrong; it stays until it is closed."""
-    ui.notify(words, type="negative", multi_line=True, close_button="Close", timeout=12000)
+    ui.notify(words, classes="told wrong", multi_line=True, close_button="Close", timeout=12000)
+
+
+def report(words: str) -> None:
+    """Tell what was done; it goes by itself."""
+    ui.notify(words, classes="told")
 
 
 def telling(action: Callable[..., Any]) -> Callable[..., Any]:
