@@ -37,7 +37,7 @@ def stamped(shape: Array, places: Array, turns: Array | None = None) -> Geometri
         cos, sin = np.cos(turns)[:, None], np.sin(turns)[:, None]
         x, y = closed.T
         corners = places[:, None] + np.stack([cos * x - sin * y, sin * x + cos * y], axis=-1)
-    return np.asarray(shapely.polygons(corners), dtype=object)
+    return _polygons(corners)
 
 
 def strokes(begin: Array, end: Array, width: float, tolerance: float) -> Geometries:
@@ -54,7 +54,16 @@ def strokes(begin: Array, end: Array, width: float, tolerance: float) -> Geometr
     tip = forward[None, :, None] * ahead[:, None] + side[None, :, None] * left[:, None]
     corners = np.concatenate([end[:, None] + tip, begin[:, None] - tip], axis=1)
     closed = np.concatenate([corners, corners[:, :1]], axis=1)
-    return np.asarray(shapely.polygons(closed), dtype=object)
+    return _polygons(closed)
+
+
+def _polygons(corners: Array) -> Geometries:
+    """Return polygons of as many corners each, closed, shape (n, m, 2)."""
+    ends = np.arange(len(corners) + 1)
+    made = shapely.from_ragged_array(
+        shapely.GeometryType.POLYGON, corners.reshape(-1, 2), (ends * corners.shape[1], ends)
+    )
+    return np.asarray(made, dtype=object)
 
 
 def bodies(lines: Geometries, width: float, tolerance: float) -> Geometries:

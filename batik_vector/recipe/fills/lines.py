@@ -28,7 +28,7 @@ class Galaran(Angled):
 
     kind = "galaran"
     whole = False
-    marks_each = 0.5
+    marks_each = 0.05
 
     follow: Annotated[Follow, Says("what its lines follow")] = Follow.ANGLE
 
@@ -60,6 +60,7 @@ class Hatching(Angled):
 
     kind = "hatching"
     least = 1.5
+    marks_each = 0.5
     whole = False
 
     between: Annotated[float, Between(20, 160), Says("degrees from the first direction to the second")] = 90.0
@@ -103,7 +104,7 @@ class Sawut(Fill):
     """Short strokes from the edge inwards, square to it (*sawut*)."""
 
     kind = "sawut"
-    marks_each = 0.5
+    marks_each = 0.1
 
     spacing: Annotated[
         Annotated[Length, Between(0.05, 1000)], Useful(0.9, 3), Says("from stroke to stroke along the edge")
