@@ -188,6 +188,7 @@ def cold() -> None:
     placements._kept.clear()
     figures._copied.cache_clear()
     figures._alone.cache_clear()
+    figures._told.cache_clear()
 
 
 PITCH_MM = 10.0

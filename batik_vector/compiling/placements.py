@@ -11,6 +11,7 @@ import numpy as np
 import shapely
 
 from batik_vector.artwork import Cell, Geometries, Ink
+from batik_vector.compiling.bends import SOURCE_SHARE, Source, bent
 from batik_vector.compiling.copies import Laid, Look, set_down, sized
 from batik_vector.compiling.fills import Work, filled, has_fills
 from batik_vector.compiling.grounds import Ground, lattice_of, scattered, striped
@@ -19,7 +20,6 @@ from batik_vector.geometry import work
 from batik_vector.geometry.ifs import distinct
 from batik_vector.geometry.maps.affine import Affine
 from batik_vector.geometry.maps.affines import ONE, Affines
-from batik_vector.geometry.sampling import Array, Points
 from batik_vector.recipe.drawing import Svg
 from batik_vector.recipe.figures import Figure, draw, size_of
 from batik_vector.recipe.model import Recipe
@@ -50,9 +50,6 @@ FEW_CONTOURS = 100
 
 GRID_SHARE = 1.5 * GRID_MM
 """What is kept of the tolerance for moves onto the grid: 0.71 steps of a vertex, and as much of a copy."""
-
-SOURCE_SHARE = 0.2
-"""Share of the tolerance that the source of a bent image may use; the bending itself has the rest."""
 
 
 @frozen
@@ -311,7 +308,7 @@ def _scale(placement: Placement, rough: list[Figure], images: Affines | Bend, co
     if not placement.layout.spreads:
         return placement.width / _extent(rough)
     if isinstance(images, Bend):
-        return placement.width / _extent(_bent(rough, images, coarse))
+        return placement.width / _extent(bent(rough, images, coarse))
     return placement.width / _extent(rough, images)
 
 
@@ -341,12 +338,8 @@ def _set_out(motif: Motif, images: Affines | Bend, tolerance: float) -> tuple[li
     A bent motif is all its images in one figure, of which there is one copy.
     """
     if isinstance(images, Bend):
-        system, first = images.system, images.first
-
-        def source(points: Points) -> Array:
-            return np.asarray(tolerance * SOURCE_SHARE / np.maximum(system.stretch(first.at(points)), 1e-6))
-
-        return _bent(_shown(draw(motif, source)), images, tolerance * (1 - SOURCE_SHARE)), ONE
+        source = Source(images=images, tolerance=tolerance)
+        return bent(_shown(draw(motif, source)), images, tolerance * (1 - SOURCE_SHARE)), ONE
     figures = _shown(draw(motif, _rung(tolerance / float(images.stretches.max()))))
     return figures, distinct(images, _marks_of(figures), tolerance)
 
@@ -371,16 +364,5 @@ def _shown(figures: list[Figure]) -> list[Figure]:
         replace(figure, lines=figure.lines[:0])
         if figure.element.treatment in filled and len(figure.areas)
         else figure
-        for figure in figures
-    ]
-
-
-def _bent(figures: list[Figure], images: Bend, tolerance: float) -> list[Figure]:
-    return [
-        Figure(
-            figure.element,
-            images.system.areas(images.first.apply(figure.areas), tolerance)[0],
-            images.system.lines(images.first.apply(figure.lines), tolerance)[0],
-        )
         for figure in figures
     ]

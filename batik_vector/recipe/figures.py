@@ -78,14 +78,22 @@ def _draw(element: Element, tolerance: float | Callable[[Points], Array]) -> Fig
     if not callable(tolerance):
         look = element.curve, element.fill, element.contours, tolerance
         return Figure(element, *_copied(look, element.ring))
-    copies = copies_of(*element.ring)
+    return Figure(element, *_told(element.curve, element.fill, element.contours, element.ring, tolerance))
+
+
+@functools.lru_cache(maxsize=32)
+def _told(
+    curve: Curve, fill: FillRule, contours: int, ring: Ring, tolerance: Callable[[Points], Array]
+) -> tuple[Geometries, Geometries, Affines]:
+    """Return areas and lines of a curve and its copies by a tolerance told place by place. Kept, too."""
+    copies = copies_of(*ring)
 
     def everywhere(points: Points) -> Array:
         return np.asarray(np.min([tolerance(images) for images in copies.at(points)], axis=0))
 
-    areas, lines = _outlined(element.curve, element.fill, element.contours, everywhere)
+    areas, lines = _outlined(curve, fill, contours, everywhere)
     reach = float(np.min(everywhere(shapely.get_coordinates(lines))))
-    return Figure(element, *_turned(areas, lines, copies, reach))
+    return _unchanging(*_turned(areas, lines, copies, reach))
 
 
 Look: TypeAlias = tuple[Curve, FillRule, int, float]
@@ -105,7 +113,13 @@ def copies_of(
 @functools.lru_cache(maxsize=128)
 def _copied(look: Look, ring: Ring) -> tuple[Geometries, Geometries, Affines]:
     """Return areas and lines of a curve and its copies. Kept: who turns one knob draws the rest again."""
-    areas, lines, frames = _turned(*_alone(look), copies_of(*ring), look[-1])
+    return _unchanging(*_turned(*_alone(look), copies_of(*ring), look[-1]))
+
+
+def _unchanging(
+    areas: Geometries, lines: Geometries, frames: Affines
+) -> tuple[Geometries, Geometries, Affines]:
+    """Return arrays that nobody writes into: others are given the same."""
     for marks in (areas, lines):
         marks.flags.writeable = False
     return areas, lines, frames

@@ -78,7 +78,7 @@ BUDGETS = Budgets(
         "curves traced, cold": 12,
         "shapely calls, cold": 788,
         "shapely calls, a petal longer": 312,
-        "shapely calls, the same recipe again": 239,
+        "shapely calls, the same recipe again": 125,
         # What Python and NumPy hold at most, at 10^5 vertices.
         "bytes per vertex, compiling": 36,
         "bytes per vertex, compiling a net": 102,

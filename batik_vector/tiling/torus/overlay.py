@@ -96,6 +96,20 @@ def united(groups: Sequence[Geometries], known: Asked[Made] | None = None) -> Ge
     return _kept(known, joined, whole, again, lambda row, made: _grid_cost(groups[row], made))
 
 
+def united_before(known: Asked[Made], given: int) -> Geometries | None:
+    """Return unions that are all known, of areas of so many vertices; None where :func:`united` must look.
+
+    Of few vertices no crossings are counted, and the areas themselves are not needed.
+    """
+    if known.fresh() or given >= work.SMALL:
+        return None
+    raw = _raw(known)
+    if shapely.get_num_coordinates(raw).sum() > work.SMALL:
+        return None
+    work.spend(given)
+    return _kept(known, raw, raw[:0], lambda rows: raw[rows], lambda row, made: 0.0)
+
+
 def unknown(count: int) -> Asked[Made]:
     """Return as many overlays of which nothing is known, and nothing kept."""
     return Asked(None, np.empty((count, 0), np.int64), ())
@@ -126,12 +140,14 @@ def _kept(
         if made is not None and made.again:
             work.spend(made.again)
     fresh = known.fresh()
+    if not fresh:
+        return as_array([made.shape for made in known.answers()])
     shapes, torn = _rounding(whole, again)
     costs = dict.fromkeys(fresh, 0.0) | {fresh[row]: cost(fresh[row], whole[row]) for row in torn.tolist()}
     shapes = interned(shapes) if known.keeps else shapes
     sizes = shapely.get_num_coordinates(raw[fresh]) + shapely.get_num_coordinates(shapes)
-    for row, shape, size in zip(fresh, shapes.tolist(), sizes.tolist(), strict=True):
-        known.keep(row, Made(raw[row], shape, costs[row]), size)
+    new = [Made(raw[row], shape, costs[row]) for row, shape in zip(fresh, shapes.tolist(), strict=True)]
+    known.keep(fresh, new, sizes.tolist())
     return as_array([made.shape for made in known.answers()])
 
 

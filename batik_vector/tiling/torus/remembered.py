@@ -22,6 +22,7 @@ import shapely
 from numpy.typing import NDArray
 
 from batik_vector.artwork import Geometries
+from batik_vector.geometry import work
 
 KEPT_BYTES = 64_000_000
 """About how much memory what is remembered may take up."""
@@ -32,12 +33,16 @@ KEPT_VERTICES = 200_000
 PER_ENTRY, PER_VERTEX = 300, 16
 """About how many bytes an entry takes up with its key, and each vertex of a shape."""
 
+HELD = 16
+"""Entries that hold their shapes together. Python's collector looks through every tuple that holds a shape,
+but not into arrays; and where one entry stays, the shapes of so many do."""
+
 Made = TypeVar("Made")
 Identities = NDArray[np.int64]
 
 
-Shelf: TypeAlias = dict[Any, tuple[Any, int]]
-"""What is kept of one kind: by its key the value, and about how many bytes it takes up."""
+Entry: TypeAlias = tuple[Any, int, Any]
+"""A value, about how many bytes it takes up, and what must live as long."""
 
 
 class Memory:
@@ -54,8 +59,8 @@ class Memory:
 
     def clear(self) -> None:
         """Forget everything."""
-        self._young: defaultdict[Hashable, Shelf] = defaultdict(dict)
-        self._old: defaultdict[Hashable, Shelf] = defaultdict(dict)
+        self._young: defaultdict[Hashable, dict[Any, Entry]] = defaultdict(dict)
+        self._old: defaultdict[Hashable, dict[Any, Entry]] = defaultdict(dict)
         self._held = 0
 
     def __len__(self) -> int:
@@ -72,11 +77,11 @@ class Memory:
                 found[number] = entry[0]
         return found
 
-    def keep(self, kind: Hashable, key: Any, value: Any, size: int) -> None:
-        """Keep a value, which is not None, of about so many bytes."""
-        self._keep(kind, key, (value, size + PER_ENTRY))
+    def keep(self, kind: Hashable, key: Any, value: Any, size: int, held: Any = None) -> None:
+        """Keep a value, which is not None, of about so many bytes; and hold what its key stands for."""
+        self._keep(kind, key, (value, size + PER_ENTRY, held))
 
-    def _keep(self, kind: Hashable, key: Any, entry: tuple[Any, int]) -> None:
+    def _keep(self, kind: Hashable, key: Any, entry: Entry) -> None:
         with self._lock:
             self._young[kind][key] = entry
             self._held += entry[1]
@@ -143,29 +148,76 @@ class Asked(Generic[Made]):
             raw, width = np.ascontiguousarray(rows).tobytes(), rows.shape[1] * rows.itemsize
             places = [end * width for end in self._ends]
             self._keys = [raw[first:last] for first, last in itertools.pairwise(places)]
-            known = _memory.get(how, self._keys)
-            self.found = [None if each is None else each[0] for each in known]
+            self.found = _memory.get(how, self._keys)
 
     def fresh(self, rows: Sequence[int] | None = None) -> list[int]:
         """Return which questions have no answer yet: of all, or of some."""
         return [row for row in (range(len(self.found)) if rows is None else rows) if self.found[row] is None]
 
-    def keep(self, row: int, made: Made, vertices: int = 0) -> None:
-        """Take up the answer to a question: what was made, which has about so many vertices."""
-        self.found[row] = made
+    def keep(self, rows: Sequence[int], made: Sequence[Made], vertices: Sequence[int] | None = None) -> None:
+        """Take up the answers to some questions: what was made, which has about so many vertices."""
+        for row, each in zip(rows, made, strict=True):
+            self.found[row] = each
         if not self.keeps:
             return
-        first, last = self._ends[row : row + 2]
-        held = [shape for each in self._shapes for shape in each[first:last].tolist()]
-        _memory.keep(self._how, self._keys[row], (made, *held), vertices * PER_VERTEX)
+        sizes = vertices or [0] * len(rows)
+        for first in range(0, len(rows), HELD):
+            some = rows[first : first + HELD]
+            held = self._of(some)
+            for row, size in zip(some, sizes[first : first + HELD], strict=True):
+                _memory.keep(self._how, self._keys[row], self.found[row], size * PER_VERTEX, held)
+
+    @classmethod
+    def together(cls, how: Hashable, rows: Identities, shapes: Sequence[Geometries]) -> Asked[Made]:
+        """Ask one question of all rows."""
+        return cls(how, rows, shapes, np.array([0, len(rows)]))
+
+    def _of(self, rows: Sequence[int]) -> Geometries:
+        """Return the shapes that some questions are about, in an array of their own."""
+        runs = [slice(self._ends[row], self._ends[row + 1]) for row in rows]
+        return np.concatenate([each[run] for each in self._shapes for run in runs])
 
     def answers(self, make: Callable[[list[int]], Sequence[Made]] | None = None) -> list[Made]:
         """Return all answers; those that are not known yet are made."""
         fresh = self.fresh()
         if fresh and make is not None:
-            for row, made in zip(fresh, make(fresh), strict=True):
-                self.keep(row, made)
+            self.keep(fresh, make(fresh))
         return self.found  # type: ignore[return-value]
+
+
+def remembered(how: Hashable, shapes: Geometries, make: Callable[[], Geometries]) -> Geometries:
+    """Return what is made of shapes all together, an array of one's own.
+
+    Args:
+        how: what is made of them, and all that it hangs on beside the shapes.
+        shapes: what it is made of.
+        make: makes it, and counts its work.
+
+    Raises:
+        TooLargeError: where the work comes to too much.
+    """
+    before = work.counted()
+    if before is None or not len(shapes) or shapely.get_num_coordinates(shapes).sum() > KEPT_VERTICES:
+        return make()
+    try:
+        hash(how)
+    except TypeError:
+        # What is built in Python may hold lists.
+        return make()
+    shapes = interned(shapes)
+    asked = Asked[tuple[work.Share, list[shapely.Geometry]]].together(
+        how, identities(shapes)[:, None], (shapes,)
+    )
+    (known,) = asked.found
+    if known is not None:
+        work.spend_again(known[0])
+        return as_array(known[1])
+    made = make()
+    spent, vertices, crossings, pairs = np.subtract(work.counted() or before, before).tolist()
+    size = int(shapely.get_num_coordinates(made).sum())
+    if size <= KEPT_VERTICES:
+        asked.keep([0], [((spent, vertices, crossings, pairs), made.tolist())], [size])
+    return made
 
 
 def as_array(found: Sequence[Any]) -> Geometries:

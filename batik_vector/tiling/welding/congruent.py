@@ -10,8 +10,8 @@ Coordinates are whole grid steps.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from typing import NamedTuple, TypeAlias
+from collections.abc import Callable, Hashable, Sequence
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 import shapely
@@ -23,13 +23,16 @@ from batik_vector.geometry.congruence import alike, different, same_points
 from batik_vector.geometry.outlines import Index, Outlines, Steps, of_polygons, runs, to_polygons
 from batik_vector.geometry.ragged import Ragged
 from batik_vector.geometry.regions import oriented
-from batik_vector.tiling.torus.remembered import KEPT_VERTICES, Asked, identities, interned
+from batik_vector.tiling.torus.remembered import KEPT_VERTICES, Asked, as_array, identities, interned
 from batik_vector.tiling.torus.torus import polygons_of, to_step_grid, translate
 from batik_vector.units import STEPS_PER_MM
 from batik_vector.values import frozen
 
 FEW_PAIRS = 250_000
 """Pairs of bounds that are compared one with the other: sooner done than a tree."""
+
+FEW_COPIES = 500
+"""Copies that are looked up one by one; more are sooner made again."""
 
 Predicate = Callable[[Geometries, Geometries], NDArray[np.bool_]]
 
@@ -204,6 +207,21 @@ class Stock:
         """Return the copies as polygons in mm, outer rings anticlockwise and holes clockwise."""
         if not len(copies):
             return np.empty(0, dtype=object)
+        if not self.remembers or len(copies) > FEW_COPIES:
+            return self._in_mm(copies)
+        known = self.asked("in mm", copies)
+        fresh = known.fresh()
+        if fresh:
+            made = self._in_mm(copies.taken(np.array(fresh)))
+            known.keep(fresh, made.tolist(), shapely.get_num_coordinates(made).tolist())
+        return as_array(known.answers())
+
+    def asked(self, how: Hashable, copies: Copies) -> Asked[Any]:
+        """Return what is known of something that is made of each of some copies, if the stock remembers."""
+        shapes = self.shapes[copies.kind]
+        return Asked(how, np.column_stack([identities(shapes), copies.shift]), (shapes,))
+
+    def _in_mm(self, copies: Copies) -> Geometries:
         shapes, row = self.used(copies)
         flat = Ragged.of(oriented(shapes))
         assert flat.polygons is not None

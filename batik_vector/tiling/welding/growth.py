@@ -59,7 +59,6 @@ def grown_on_grid(shapes: Geometries, reach: float, corners: int = PLAIN_CORNERS
         return overlay.grown(shapes, steps, corners, overlay.unknown(len(shapes)))
     shapes = interned(shapes)
     rows = identities(shapes)[:, None]
-    all_rows = np.array([0, len(rows)])
-    close = Asked[float](("close strands", reach), rows, (shapes,), all_rows)
+    close = Asked[float].together(("close strands", reach), rows, (shapes,))
     work.spend_on_growth(shapes, steps, *close.answers(lambda _: [work.close_strands(shapes, steps)]))
     return overlay.grown(shapes, steps, corners, Asked(("grown", reach, corners), rows, (shapes,)))

@@ -145,19 +145,26 @@ def unions(stock: Stock, rows: Steps, offsets: Offsets, which: Index) -> Geometr
     members, ends = runs(offsets, which)
     joining = rows[members[np.repeat(np.diff(ends) > 1, np.diff(ends))], 0]
     work.foretell(float(shapely.get_num_coordinates(stock.shapes)[joining].sum()), 0.0)
+    several = np.flatnonzero(np.diff(ends) > 1)
+    known = _asked(stock, rows[members], ends, several) if stock.remembers and len(several) else None
+    if known is not None:
+        given = int(shapely.get_num_coordinates(stock.shapes[joining]).sum())
+        before = overlay.united_before(known, given)
+        if before is not None:
+            first = rows[members[ends[:-1]]]
+            result = stock.geometries(Copies(first[:, 0], first[:, 1:]))
+            result[several] = before
+            return result
     areas = stock.geometries(Copies(rows[members, 0], rows[members, 1:]))
     result = areas[ends[:-1]]
-    several = np.flatnonzero(np.diff(ends) > 1)
     if len(several):
         groups = [areas[ends[row] : ends[row + 1]] for row in several]
-        result[several] = overlay.united(groups, _asked(stock, rows[members], ends, several))
+        result[several] = overlay.united(groups, known)
     return result
 
 
-def _asked(stock: Stock, rows: Steps, ends: Offsets, several: Index) -> Asked[overlay.Made] | None:
+def _asked(stock: Stock, rows: Steps, ends: Offsets, several: Index) -> Asked[overlay.Made]:
     """Return what is known of the unions of some runs of rows."""
-    if not stock.remembers:
-        return None
     members, within = runs(ends, several)
     shapes = stock.shapes[rows[members, 0]]
     table = np.column_stack([identities(shapes), rows[members, 1:]])

@@ -5,6 +5,7 @@ Coordinates are whole grid steps.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 
 import numpy as np
@@ -90,17 +91,15 @@ class Torus:
         """Return what of copies lies in the cell, one after another, and where the pieces of each begin."""
         if not self.stock.remembers:
             return self._cut_off(marks)
-        shapes = self.stock.shapes[marks.kind]
-        rows = np.column_stack([identities(shapes), marks.shift])
-        known = Asked[list[shapely.Polygon]](("clipped", self.window), rows, (shapes,))
-        vertices = shapely.get_num_coordinates(shapes)
+        known: Asked[list[shapely.Polygon]] = self.stock.asked(("clipped", self.window), marks)
+        vertices = shapely.get_num_coordinates(self.stock.shapes[marks.kind])
         fresh = known.fresh()
         work.spend(float(vertices.sum() - vertices[fresh].sum()), per_vertex=work.PER_CUTTER_VERTEX)
         if fresh:
             pieces, ends = self._cut_off(marks.taken(np.array(fresh)))
             cut = interned(pieces).tolist()
-            for row, first, last in zip(fresh, ends[:-1].tolist(), ends[1:].tolist(), strict=True):
-                known.keep(row, cut[first:last], vertices[row])
+            found = [cut[first:last] for first, last in itertools.pairwise(ends.tolist())]
+            known.keep(fresh, found, vertices[fresh].tolist())
         answers = known.answers()
         return as_array([piece for each in answers for piece in each]), np.cumsum([0, *map(len, answers)])
 
@@ -198,11 +197,17 @@ class Torus:
     def without_needles(self, areas: Copies) -> Copies:
         """Return areas that lie in the cell without what is thinner than the grid."""
         shapes, row = self.stock.used(areas)
-        at = np.flatnonzero(needled(shapes)[row])
+        at = np.flatnonzero(self._needled(shapes)[row])
         if not len(at):
             return areas
         blunt = without_needles(self.stock.geometries(areas.taken(at)), self.window)
         return self._replaced(areas, at, blunt)
+
+    def _needled(self, shapes: Geometries) -> NDArray[np.bool_]:
+        if not self.stock.remembers:
+            return needled(shapes)
+        known = Asked[bool]("needled", identities(shapes)[:, None], (shapes,))
+        return np.array(known.answers(lambda fresh: needled(shapes[fresh]).tolist()), bool)
 
     def sealed(self, ink: str, areas: Copies, *, apart: bool) -> Copies | None:
         """Return areas whose opposite edges agree, but for borders drawn along the seam on purpose.
@@ -213,9 +218,9 @@ class Torus:
         x0, y0, x1, y1 = self.stock.bounds(areas).T
         window = self.window
         at = (x0 <= window.left) | (y0 <= window.bottom) | (x1 >= window.right) | (y1 >= window.top)
-        rim = self.stock.geometries(areas.taken(at))
-        breaks = seams.mismatch(rim, self.cell)
+        breaks = self._breaks(areas.taken(at))
         if len(breaks):
+            rim = self.stock.geometries(areas.taken(at))
             mended = seams.mended(rim, self.cell)
             if not shapely.is_valid(mended).all() or (apart and _overlap(mended)):
                 return None
@@ -225,6 +230,17 @@ class Torus:
             self.borders += [(ink, axis, low, high) for axis, low, high in breaks.tolist()]
             areas = self._replaced(areas, at, mended)
         return areas
+
+    def _breaks(self, rim: Copies) -> NDArray[np.int64]:
+        """Return where opposite edges of the cell differ; nobody may write into it."""
+        if not self.stock.remembers:
+            return seams.mismatch(self.stock.geometries(rim), self.cell)
+        shapes = self.stock.shapes[rim.kind]
+        rows = np.column_stack([identities(shapes), rim.shift])
+        known = Asked[NDArray[np.int64]].together(("breaks", self.cell), rows, (shapes,))
+        (found,) = known.answers(lambda _: [seams.mismatch(self.stock.geometries(rim), self.cell)])
+        found.flags.writeable = False
+        return found
 
     def _replaced(self, areas: Copies, at: Index | NDArray[np.bool_], others: Geometries) -> Copies:
         """Return copies, some of which are other polygons."""
