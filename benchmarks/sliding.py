@@ -1,6 +1,7 @@
 """What is timed inside a running program: a slider's steps, the levels of a layout, metres of cloth.
 
     python -m benchmarks.sliding slider RECIPE         recipe to artwork, a knob turned before each
+    python -m benchmarks.sliding knobs RECIPE          the same, every number of the recipe turned by itself
     python -m benchmarks.sliding levels                the four-square layout at levels 1 and 4, welded
     python -m benchmarks.sliding cloth METRES FOLDER   a cloth 1.5 m wide
 
@@ -9,8 +10,10 @@ Every step is another recipe, so that no result kept from the step before can an
 
 from __future__ import annotations
 
+import contextlib
 import sys
 import tempfile
+import tomllib
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial
@@ -19,7 +22,9 @@ from types import MappingProxyType
 
 from batik_vector.artwork import Artwork
 from batik_vector.compiling.compiler import compile_cloth, compile_recipe
+from batik_vector.errors import BatikError
 from batik_vector.export import write_artwork
+from batik_vector.making import exploring
 from batik_vector.recipe.loading import load_recipe, read_recipe
 from batik_vector.recipe.model import Recipe, YardageSpec
 from benchmarks.contests.compiling import SLIDER_KNOBS
@@ -28,7 +33,7 @@ from benchmarks.peers.drawn import Part, middle, tell, timed
 
 SCREEN_MM = 0.3
 """Tolerance at which a screen shows a tile of 320 mm without a visible corner."""
-STEPS = 15
+STEPS, KNOB_STEPS = 15, 5
 
 KNOBS: Mapping[str, tuple[str, ...]] = MappingProxyType(
     dict(
@@ -96,6 +101,33 @@ def slider(path: str) -> dict[str, Part]:
     return parts
 
 
+def knobs(path: str) -> dict[str, Part]:
+    """Time reading and compiling while each number of the recipe's motifs is turned; "all" is their median.
+
+    What is refused is left out.
+    """
+    text = Path(path).read_text(encoding="utf-8")
+    parts: dict[str, Part] = {}
+    compile_recipe(at_screen(path))
+    for knob in exploring.knobs(tomllib.loads(text)):
+        steps = [f"{knob.keys[0]}={value!r}" for value in _near(knob)]
+        with contextlib.suppress(BatikError):
+            parts[knob.keys[0]] = middle([timed(partial(_at_screen, text, each))[0] for each in steps])
+    return {"all": middle(list(parts.values())), **parts}
+
+
+def _near(knob: exploring.Knob) -> list[float]:
+    """Return values near that of a knob, within its bounds."""
+    step = 1.0 if knob.whole else 0.004 * (knob.value or 1.0)
+    values = [knob.value + step * number for number in range(1, KNOB_STEPS + 1)]
+    values = [min(max(each, knob.bounds.low), knob.bounds.high) for each in values]
+    return [int(each) if knob.whole else round(each, 6) for each in values]
+
+
+def _at_screen(text: str, setting: str) -> None:
+    compile_recipe(replace(read_recipe(text, overrides=(setting,)), tolerance=SCREEN_MM))
+
+
 def levels() -> dict[str, Part]:
     """Time both levels in turn, each time a little larger, and the writing of the higher one."""
     parts: dict[str, list[Part]] = {}
@@ -135,7 +167,12 @@ def _cloth(recipe: Recipe, tile: Artwork, path: Path) -> None:
     write_artwork(compile_cloth(recipe, tile=tile), path)
 
 
-TASKS: dict[str, Callable[..., dict[str, Part]]] = {"slider": slider, "levels": levels, "cloth": cloth}
+TASKS: dict[str, Callable[..., dict[str, Part]]] = {
+    "slider": slider,
+    "knobs": knobs,
+    "levels": levels,
+    "cloth": cloth,
+}
 
 if __name__ == "__main__":
     tell(TASKS[sys.argv[1]](*sys.argv[2:]))
