@@ -9,7 +9,7 @@ from dataclasses import replace
 from batik_vector.errors import Fault, RecipeError, unknown_name
 from batik_vector.making.jobs import Job
 from batik_vector.making.variants import Axis
-from batik_vector.recipe.colourways import PALETTES
+from batik_vector.recipe.colourways import PALETTES, printed_by_itself, stays
 from batik_vector.recipe.drawing import Svg
 from batik_vector.recipe.loading import located, read_recipe
 from batik_vector.recipe.model import InkSpec, Recipe
@@ -81,6 +81,8 @@ def palette_axis(recipe: Recipe, names: Sequence[str]) -> Axis:
     if recipe.bath:
         words = "baths give this recipe its colours, and no palette can: vary theirs, as --vary"
         raise RecipeError([Fault(f'{words} \'bath[0].colour="#27407a","#7a1d1c"\'', "bath")])
+    for name in printed_by_itself(recipe.ink):
+        raise RecipeError([Fault(f"palettes are for the screen, and {stays(name)}", f"ink.{_quoted(name)}")])
     wanted = list(PALETTES) if "all" in names else list(dict.fromkeys(names))
     for name in wanted:
         if name not in PALETTES:

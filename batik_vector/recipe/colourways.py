@@ -75,6 +75,9 @@ def faults_of(
             yield Fault("expected a palette, or colours of the cloth or of inks", key)
         if spec.palette and spec.palette not in PALETTES:
             yield Fault(unknown_name(spec.palette, list(PALETTES), "palette"), f"{key}.palette")
+        if spec.palette:
+            for ink in printed_by_itself(inks):
+                yield Fault(f"gives inks colours on screen, and {stays(ink)}", f"{key}.palette")
         yield from _of_inks(key, spec.ink, inks)
 
 
@@ -82,6 +85,15 @@ def _of_inks(key: str, colours: Collection[str], inks: Mapping[str, Any]) -> Ite
     for ink in colours:
         if ink not in inks:
             yield Fault(unknown_name(ink, list(inks), "ink"), f"{key}.{dotted(('ink', ink))}")
-        elif inks[ink].cmyk or inks[ink].lab:
-            words = "is the colour on screen, and the ink's cmyk or lab in print would stay: leave those out"
-            yield Fault(words, f"{key}.{dotted(('ink', ink))}")
+        elif ink in printed_by_itself(inks):
+            yield Fault(f"is the colour on screen, and {stays(ink)}", f"{key}.{dotted(('ink', ink))}")
+
+
+def printed_by_itself(inks: Mapping[str, Any]) -> list[str]:
+    """Return the inks whose colour in print is said beside that on screen: another one there leaves it."""
+    return [name for name, ink in inks.items() if ink.cmyk or ink.lab]
+
+
+def stays(ink: str) -> str:
+    """Return in words what an ink's own colour in print does."""
+    return f"the cmyk or lab of ink {ink} in print would stay: leave it out"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -52,6 +53,10 @@ def test_an_axis_of_palettes_names_its_variants() -> None:
     assert len(palette_axis(recipe, ["all"]).values) == len(PALETTES)
     with pytest.raises(RecipeError, match=r"baths give this recipe its colours.*bath\[0\].colour"):
         palette_axis(load_recipe(SAMPLES / "wax-javanese.toml"), ["sogan"])
+    name, ink = next(iter(recipe.ink.items()))
+    printed = replace(ink, cmyk=(0, 2, 8, 4))
+    with pytest.raises(RecipeError, match=rf"ink.{name}: palettes are for the screen, and the cmyk"):
+        palette_axis(replace(recipe, ink={**recipe.ink, name: printed}), ["sogan"])
     with pytest.raises(RecipeError, match='unknown palette "sogann": did you mean "sogan"'):
         palette_axis(recipe, ["sogann"])
 

@@ -78,6 +78,7 @@ BEYOND = {
         "a colourway called all",
         "a colourway that no file can be called after",
         "a colourway beside a colour in print",
+        "a palette beside a colour in print",
         "a plate of an ink that is not",
         "a plate of too many pixels",
         "inks further out of register than the tile",
