@@ -43,7 +43,8 @@ def _is_number(value: Any) -> bool:
 
 
 def _round_up(value: float) -> float:
-    """Return the next of 1, 2, 5, 10, 20 …"""
+    """Return the next of 1, 2, 5, 10, 20 …, or a billionth where that is larger."""
+    value = max(value, 1e-9)
     size = 10.0 ** math.floor(math.log10(value))
     return next(size * each for each in (1, 2, 5, 10) if size * each >= value * (1 - 1e-9))
 

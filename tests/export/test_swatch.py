@@ -152,9 +152,10 @@ def test_palettes_hold_cloth_and_inks(folder: Path) -> None:
     data = (folder / "kawung.gpl").read_bytes()
     palette, mode = GimpPaletteFile(io.BytesIO(data)).getpalette()
     assert mode == "RGB"
-    assert [hexed(tuple(part / 255 for part in palette[k : k + 3])) for k in (0, 3, 6)] == [
-        colour for _, colour in KAWUNG
-    ]
+    # Pillow before 11.2 counts the lines of the head as entries.
+    found = [hexed(tuple(part / 255 for part in palette[k : k + 3])) for k in range(0, len(palette), 3)]
+    begin = found.index(KAWUNG[0][1])
+    assert found[begin : begin + len(KAWUNG)] == [colour for _, colour in KAWUNG]
     rows = data.decode("utf-8").splitlines()
     assert rows[:2] == ["GIMP Palette", "Name: Kawung"]
     assert [row.partition("\t")[2] for row in rows[4:]] == [name for name, _ in KAWUNG]

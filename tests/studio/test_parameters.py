@@ -81,6 +81,11 @@ def test_every_control_holds_its_value_within_its_slider(name: str) -> None:
         check(control)
 
 
+def test_a_value_next_to_nothing_has_a_slider() -> None:
+    path = "motif.flower.vein.gap"
+    check(controls(Draft(TEXTS["bird"]).with_value(path, 5e-324), ())[path])
+
+
 def check(control: Control) -> None:
     if control.kind not in ("number", "whole"):
         return
