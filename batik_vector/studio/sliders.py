@@ -13,6 +13,8 @@ FEW = 100
 """Whole numbers of which a slider takes all."""
 LENGTH = 10.0
 """mm that a slider reaches for a length of which nothing is known."""
+SHORTEST = 1e-6
+"""What a slider reaches at least."""
 TURNED = 180.0
 """Degrees that sliders of angles reach on both sides."""
 
@@ -33,7 +35,8 @@ def span_of(
         ends = low, high
     if ends is None:
         usual = LENGTH if hint.length else 1.0
-        most = _round_up(max(2 * abs(held[-1]) if held else 0.0, 10 * max(low, 0.0)) or usual)
+        most = max(2 * abs(held[-1]) if held else 0.0, 10 * max(low, 0.0)) or usual
+        most = _round_up(max(most, SHORTEST))
         ends = max(low, -most if low < 0 else 0.0), min(high, most)
     return max(low, min([ends[0], *held])), min(high, max([ends[1], *held]))
 
@@ -43,8 +46,7 @@ def _is_number(value: Any) -> bool:
 
 
 def _round_up(value: float) -> float:
-    """Return the next of 1, 2, 5, 10, 20 …, or a billionth where that is larger."""
-    value = max(value, 1e-9)
+    """Return the next of 1, 2, 5, 10, 20 …"""
     size = 10.0 ** math.floor(math.log10(value))
     return next(size * each for each in (1, 2, 5, 10) if size * each >= value * (1 - 1e-9))
 
@@ -53,4 +55,4 @@ def step_of(hint: Hint, span: tuple[float, float]) -> float:
     """Return the step of a slider."""
     if hint.base is int:
         return 1
-    return _round_up(max(span[1] - span[0], 1e-6) / STEPS) / 2 if span[1] > span[0] else 1.0
+    return _round_up(max(span[1] - span[0], SHORTEST) / STEPS) / 2 if span[1] > span[0] else 1.0
