@@ -165,6 +165,6 @@ def test_memory_does_not_grow_with_the_page(
         spent(page, format, options)
         peaks.append(tracemalloc.get_traced_memory()[1])
         tracemalloc.stop()
-    # To know where pieces begin and in which order takes some 60 bytes for each mark, but its corners, which take
-    # 768, are never all there.
+    # To know where pieces begin and in which order takes some 60 bytes for each mark, but its corners, which
+    # take 768, are never all there.
     assert peaks[2] <= peaks[1] + 700 * 100
