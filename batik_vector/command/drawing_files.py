@@ -12,7 +12,8 @@ SNIFFED = 512
 
 
 def is_drawing(source: str) -> bool:
-    """Whether a file is an SVG, by its name or by how it begins.
+    """Whether a file is an SVG, by its name or by how it begins, and no swatch of ours: that shows its tile
+    twice, in a page that is no tile.
 
     Raises:
         RecipeError: where it is neither a drawing nor a recipe.
@@ -23,7 +24,7 @@ def is_drawing(source: str) -> bool:
     if path.is_dir():
         raise _fault(source, f'is a folder, expected files, such as "{path / "*.svg"}"')
     if path.suffix.lower() == ".svg":
-        return path.exists()
+        return path.exists() and not _is_swatch(path)
     if path.suffix.lower() in (".toml", *COMPILED):
         return False
     try:
@@ -34,6 +35,17 @@ def is_drawing(source: str) -> bool:
     if b"\0" in head or head.startswith((b"\xff\xd8\xff", b"GIF8", b"%!PS", b"%PDF")):
         raise _fault(source, "is neither a recipe (.toml) nor an SVG drawing")
     return head.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<")
+
+
+def _is_swatch(path: Path) -> bool:
+    from batik_vector.export.provenance import NAMESPACE
+    from batik_vector.export.swatch import LABEL
+
+    try:
+        data = path.read_bytes()
+    except OSError:
+        return False
+    return all(each.encode() in data for each in (NAMESPACE, f'="{LABEL}"'))
 
 
 def _fault(source: str, words: str) -> RecipeError:

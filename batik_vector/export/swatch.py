@@ -45,6 +45,8 @@ def repeats(cell: Cell) -> tuple[int, int]:
 
 
 DEFAULTS = SwatchOptions()
+LABEL = "%97 swatch"
+"""The layer of the rectangle that the pattern fills."""
 
 
 def render(page: Page, options: SwatchOptions = DEFAULTS) -> bytes:
@@ -75,7 +77,7 @@ def render(page: Page, options: SwatchOptions = DEFAULTS) -> bytes:
         _pattern(name, page, right, cloth + _LABELS.sub("", layers)),
         _layer(bounds, "%98 bounds", f'<rect {box} fill="none" stroke="none" />\n{cloth}'),
         layers,
-        _layer(swatch, "%97 swatch", f'<rect {filled} fill="url(#{name})" />\n'),
+        _layer(swatch, LABEL, f'<rect {filled} fill="url(#{name})" />\n'),
         "</svg>\n",
     ]
     return "".join(parts).encode("utf-8")

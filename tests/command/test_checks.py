@@ -249,11 +249,13 @@ def test_a_recipe_that_cannot_be_read_leaves_a_drawing(desk: Path) -> None:
     assert facts["drop"] == "0"
 
 
-@pytest.mark.parametrize("suffix", ["pdf", "dxf", "png"])
-def test_of_other_formats_the_recipe_is_checked_and_said_to_be(desk: Path, suffix: str) -> None:
+@pytest.mark.parametrize(
+    ("format", "end"), [(each, f".{each}") for each in ("pdf", "dxf", "png")] + [("swatch", "-swatch.svg")]
+)
+def test_of_other_formats_the_recipe_is_checked_and_said_to_be(desk: Path, format: str, end: str) -> None:
     Path("k.toml").write_text(CROSSING)
-    runner().invoke(cli, ["compile", "k.toml", "-f", suffix])
-    facts = checked(f"k.{suffix}")
+    runner().invoke(cli, ["compile", "k.toml", "-f", format])
+    facts = checked(f"k{end}")
     assert (facts["checked"], facts["cell_mm"]) == ("recipe", [640.0, 320.0])
     assert facts["notes"] == ["the recipe that it carries was checked, not what the file draws"]
 
