@@ -4,7 +4,8 @@
 # A GPL file has a line "GIMP Palette", a few lines such as "Name:" and "Columns:", remarks, and then a colour on each
 # line. The first of them is colour 0. GimpPaletteFile counted names and remarks along, and filled their places, and
 # those behind the last up to 256, with greys of its own (0 0 0, 1 1 1, 3 3 3). Whoever took the first entries for the
-# inks of a recipe got blacks, from a file without a fault; another remark in the file shifted them all again. Pillow 11.2.1 returns the colours that are there and no others.
+# inks of a recipe got blacks, from a file without a fault; another remark in the file shifted them all again.
+# Pillow 11.2.1 returns the colours that are there and no others.
 #
 # Seen with Pillow 11.1.0 and 11.2.1, Python 3.11.7 on Linux, a palette of one colour (21 26 46) below a name and a remark:
 #     11.1.0: 768 bytes, begins 0 0 0 1 1 1 21 26 46 3 3 3; with a remark more the colour is number 3
