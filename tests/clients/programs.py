@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 
+Box = tuple[float, float, float, float]
 SECONDS = 180
 """Each call takes about one; more than this is a program that hangs."""
 
@@ -67,14 +68,25 @@ def inkscape(svg: Path, per_mm: float) -> Path:
     return out
 
 
-def inkscape_boxes(svg: Path) -> dict[str, tuple[float, float, float, float]]:
+def inkscape_boxes(svg: Path) -> dict[str, Box]:
     """Return left, top, width and height in mm of every object that Inkscape has found, by its id."""
+    return boxes_of(run("inkscape", "--query-all", svg, home=svg.parent))
 
-    def rows() -> Iterator[tuple[str, tuple[float, float, float, float]]]:
-        for line in run("inkscape", "--query-all", svg, home=svg.parent).splitlines():
+
+def inkscape_boxes_and_page(svg: Path, per_mm: float) -> tuple[dict[str, Box], Path]:
+    """Return both of what `inkscape_boxes` and `inkscape` do; the drawing is opened once."""
+    out = svg.with_name("inkscape.png")
+    export = f"export-area-page;export-dpi:{dpi(per_mm)};export-filename:{out};export-do"
+    return boxes_of(run("inkscape", f"--actions=query-all;{export}", svg, home=svg.parent)), out
+
+
+def boxes_of(said: str) -> dict[str, Box]:
+    """Return the boxes in an answer of Inkscape's, which are in CSS pixels there, 96 to the inch."""
+
+    def rows() -> Iterator[tuple[str, Box]]:
+        for line in said.splitlines():
             name, *numbers = line.split(",")
             if len(numbers) == 4:
-                # Inkscape answers in CSS pixels, 96 to the inch.
                 left, top, width, height = (float(number) * 25.4 / 96 for number in numbers)
                 yield name, (left, top, width, height)
 

@@ -35,17 +35,11 @@ def written(artwork: Artwork, folder: Path, options: SvgOptions = VARIANTS["edit
 
 
 @pytest.mark.clients
-def test_inkscape_reads_the_page_in_true_millimetres(drawing: Artwork, tmp_path: Path) -> None:
-    svg = written(drawing, tmp_path)
+def test_inkscape_finds_page_and_layers_where_they_were_drawn(drawing: Artwork, tmp_path: Path) -> None:
+    boxes, picture = programs.inkscape_boxes_and_page(written(drawing, tmp_path), 1.0)
     width, height = drawing.cell.width, drawing.cell.height
-    assert programs.inkscape_boxes(svg)["cloth"] == pytest.approx((0, 0, width, height), abs=0.01)
-    page = load(programs.inkscape(svg, 1.0))
-    assert page.size == pytest.approx((width, height), abs=1)
-
-
-@pytest.mark.clients
-def test_inkscape_finds_every_layer_where_it_was_drawn(drawing: Artwork, tmp_path: Path) -> None:
-    boxes = programs.inkscape_boxes(written(drawing, tmp_path))
+    assert boxes["cloth"] == pytest.approx((0, 0, width, height), abs=0.01)
+    assert load(picture).size == pytest.approx((width, height), abs=1)
     for layer in drawing.layers:
         body = shapely.buffer(layer.lines, layer.ink.width / 2) if len(layer.lines) else layer.lines
         left, low, right, high = shapely.total_bounds(np.concatenate([layer.areas, body]))

@@ -156,8 +156,8 @@ class _Machine:
         self.stroke.cuts.append(Cut(motion, *to, centre, self.modal["feed"]))
 
 
-def along(stroke: Stroke, steps: int = 64) -> Iterator[NDArray[np.float64]]:
-    """Yield the places of each move in turn, the ends of arcs and what lies between."""
+def along(stroke: Stroke, sagitta: float = 0.0005) -> Iterator[NDArray[np.float64]]:
+    """Yield the places of each move in turn, and of arcs so many between that chords are off by no more mm."""
     at = np.array(stroke.start)
     for cut in stroke.cuts:
         to = np.array([cut.x, cut.y])
@@ -171,6 +171,8 @@ def along(stroke: Stroke, steps: int = 64) -> Iterator[NDArray[np.float64]]:
                 last += 2 * np.pi
             if cut.motion == 2 and last >= first:
                 last -= 2 * np.pi
-            turn = np.linspace(first, last, steps)
+            # sagitta = r (1 - cos(step / 2))
+            step = 2 * np.arccos(max(1 - sagitta / radius, 0.0))
+            turn = np.linspace(first, last, 2 + int(abs(last - first) / step))
             yield centre + radius * np.c_[np.cos(turn), np.sin(turn)]
         at = to
