@@ -108,7 +108,7 @@ def check_followed(drawing: Artwork, folder: Path, machine: str) -> None:
 
 
 def everywhere_near(one: shapely.LineString, other: shapely.LineString, near: float) -> bool:
-    """Tell whether no place on a line is further from another; it is tried every 0.2 mm and at the vertices."""
+    """Tell whether no place on a line is further from another: every 0.2 mm, and at vertices."""
     shapely.prepare(other)
     places = shapely.points(shapely.get_coordinates(shapely.segmentize(one, 0.2)))
     return bool(shapely.dwithin(places, other, near).all())

@@ -157,7 +157,7 @@ class _Machine:
 
 
 def along(stroke: Stroke, sagitta: float = 0.0005) -> Iterator[NDArray[np.float64]]:
-    """Yield the places of each move in turn, and of arcs so many between that chords are off by no more mm."""
+    """Yield the places of each move in turn, and of arcs between, so that chords are off by no more mm."""
     at = np.array(stroke.start)
     for cut in stroke.cuts:
         to = np.array([cut.x, cut.y])
