@@ -22,6 +22,7 @@ from batik_vector.command.library import library_command
 from batik_vector.command.made_files import called
 from batik_vector.command.manual import exit_codes_told, man_command
 from batik_vector.command.options import Finite, json_option, set_option
+from batik_vector.command.palettes import colourways_command, palettes_command
 from batik_vector.command.stopping import EXITS, end_on_sigterm, listen
 from batik_vector.command.studio import studio_command
 from batik_vector.command.sweeps import random_command, sweep_command
@@ -249,6 +250,8 @@ for _command in (
     compile_command,
     watch_command,
     worksheet_command,
+    palettes_command,
+    colourways_command,
     sweep_command,
     random_command,
     import_command,

@@ -30,7 +30,9 @@ if TYPE_CHECKING:
 @recipes_argument
 @files_options
 @click.option(
-    "--colourway", metavar="NAME,…|all", help="Colourways of the recipe: files for each, called after it."
+    "--colourway",
+    metavar="NAME,…|all",
+    help="Colourways of the recipe, or palettes: files for each, called after it.",
 )
 @set_option
 @jobs_option

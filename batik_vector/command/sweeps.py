@@ -128,7 +128,9 @@ def _shared(folder: str) -> Callable[[Command], Command]:
     "--palettes", metavar="NAME,…|all", help="Also vary the colours: kelengan, sogan, tiga-negeri, …"
 )
 @click.option(
-    "--colourways", metavar="NAME,…|all", help="Also vary the colours by the recipe's own colourways."
+    "--colourways",
+    metavar="NAME,…|all",
+    help="Also vary the colours by the recipe's own colourways.",
 )
 @click.option("--random", "sample", type=click.IntRange(1), metavar="N", help="A sample of N, spread evenly.")
 @click.option("--seed", type=click.IntRange(0), default=0, metavar="N", help="Which sample.  [default: 0]")

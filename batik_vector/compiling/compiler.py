@@ -21,6 +21,7 @@ from batik_vector.fields import Instead, given
 from batik_vector.geometry import work
 from batik_vector.recipe.model import Placement, Recipe
 from batik_vector.recipe.motif import most_contours
+from batik_vector.recipe.recolouring import in_palette
 from batik_vector.recipe.references import dotted
 from batik_vector.tiling.torus import seams
 from batik_vector.tiling.torus.torus import to_step_grid
@@ -47,6 +48,8 @@ def compile_recipe(recipe: Recipe, *, progress: Progress | None = None) -> Artwo
         SeamError: where no clean seam is found.
     """
     given(recipe, Annotated[Recipe, READ], "recipe")
+    if recipe.palette:
+        recipe = in_palette(recipe, recipe.palette)
     with work.account():
         return _compiled(recipe, progress or (lambda stage: None))
 

@@ -1,9 +1,4 @@
-"""Colourways: other colours for the inks and the cloth of a recipe, by name; and palettes that batik has.
-
-The names of palettes say which baths a cloth has seen: *kelengan* indigo alone, *bangbangan* red alone,
-*bang biru* red and blue, *tiga negeri* ("three lands") red, blue and soga brown. The colours are ours, for
-the screen.
-"""
+"""Colourways: other colours for the inks and the cloth of a recipe, by name."""
 
 from __future__ import annotations
 
@@ -14,24 +9,11 @@ from typing import Annotated, Any
 from batik_vector.errors import Fault, unknown_name
 from batik_vector.fields import Colour, Says, check
 from batik_vector.recipe.outputs import parse_file_word
+from batik_vector.recipe.palettes import PALETTES
 from batik_vector.recipe.references import dotted
 from batik_vector.values import frozen
 
 ALL = "all"
-
-PALETTES: Mapping[str, tuple[str, ...]] = {
-    "kelengan": ("#f4efe2", "#9fb9d8", "#5a7fb5", "#1d2f5f", "#111a38"),
-    "bangbangan": ("#f6ecd9", "#e3a98f", "#b5362c", "#7a1d1c", "#431214"),
-    "bang-biru": ("#f5eedd", "#e08e76", "#b3302b", "#2c4a86", "#151f45"),
-    "bang-biru-ijo": ("#f6efdd", "#e7b84f", "#c0392f", "#2f6a57", "#1c3158"),
-    "tiga-negeri": ("#f3e7cf", "#c9965a", "#a8322b", "#27467e", "#1f1a22"),
-    "sogan": ("#f2e4c6", "#c99a5b", "#8a5628", "#4a2b18", "#161a2c"),
-    "lasem": ("#f7efe0", "#d98d7f", "#a5242b", "#5c1622", "#22182a"),
-    "ijo": ("#f3f0df", "#a9c29a", "#5c8f6a", "#2d5a4a", "#14302b"),
-    "mangosteen": ("#f4ece4", "#cbb3cf", "#8a5a92", "#4b2a5c", "#21152e"),
-    "charcoal": ("#f5f2ec", "#bdb6ac", "#7d766e", "#3d3833", "#181614"),
-}
-"""Five colours each, the lightest first."""
 
 
 @frozen(kw_only=True)
@@ -68,17 +50,24 @@ def faults_of(
             yield Fault(str(error), key)
         if name in ("", ALL):
             yield Fault("expected another name: all stands for every one of them", key)
-        if dyed:
-            yield Fault("baths give this recipe its colours, and no colourway can", key)
+        if dyed and (spec.cloth or spec.ink):
+            words = "baths give this recipe its colours: expected a palette alone, with dyes for them"
+            yield Fault(words, key)
             continue
         if spec == ColourwaySpec():
             yield Fault("expected a palette, or colours of the cloth or of inks", key)
-        if spec.palette and spec.palette not in PALETTES:
-            yield Fault(unknown_name(spec.palette, list(PALETTES), "palette"), f"{key}.palette")
-        if spec.palette:
-            for ink in printed_by_itself(inks):
-                yield Fault(f"gives inks colours on screen, and {stays(ink)}", f"{key}.palette")
+        yield from wrong_palette(spec.palette, inks, f"{key}.palette")
         yield from _of_inks(key, spec.ink, inks)
+
+
+def wrong_palette(name: str, inks: Mapping[str, Any], key: str) -> Iterator[Fault]:
+    """Yield what is wrong with the name of a palette that stands at a key; no name is none."""
+    if not name:
+        return
+    if name not in PALETTES:
+        yield Fault(unknown_name(name, list(PALETTES), "palette"), key)
+    for ink in printed_by_itself(inks):
+        yield Fault(f"gives inks colours on screen, and {stays(ink)}", key)
 
 
 def _of_inks(key: str, colours: Collection[str], inks: Mapping[str, Any]) -> Iterator[Fault]:

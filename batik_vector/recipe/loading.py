@@ -133,6 +133,10 @@ def _drawn(
             from batik_vector.recipe.reading.presses import with_presses
 
             recipe = with_presses(recipe, None if is_compiled(source) else place)
+        if recipe.palette:
+            from batik_vector.recipe.recolouring import in_palette
+
+            recipe = in_palette(recipe, recipe.palette)
     except RecipeError as error:
         raise located(error, source, written, overrides) from error
     return recipe

@@ -10,7 +10,7 @@ from batik_vector.artwork import Cmyk, Dyeing, Ink, Lab, Overlap
 from batik_vector.errors import Fault, GeometryError, RecipeError
 from batik_vector.fields import HIDDEN, Between, Colour, Length, OneOf, Says, Unset, check
 from batik_vector.recipe.border import BorderSpec
-from batik_vector.recipe.colourways import ColourwaySpec
+from batik_vector.recipe.colourways import ColourwaySpec, wrong_palette
 from batik_vector.recipe.colourways import faults_of as wrong_colourways
 from batik_vector.recipe.drawing import Svg
 from batik_vector.recipe.dyeing import BathSpec, Dyed, Inks, dyeing_of, faults_of, ink_key
@@ -102,6 +102,9 @@ class Recipe:
     )
     cloth: Annotated[ClothSpec, Says("the ground")] = field(default_factory=ClothSpec)
     bath: Annotated[tuple[BathSpec, ...], Says("the dye baths, in the order of dyeing")] = ()
+    palette: Annotated[
+        str, Says("palette from which all colours are taken by lightness, such as solo; none if unset")
+    ] = ""
     colourway: Annotated[dict[str, ColourwaySpec], Says("other colours for the recipe, by name")] = field(
         default_factory=dict
     )
@@ -121,6 +124,7 @@ class Recipe:
         faults += self._missing() + self._bad_names() + self._without_ink() + self._bad_symmetries()
         faults += faults_of(self.bath, self.cloth.undyed, self._dyed(), self._ground())
         faults += wrong_colourways(self.colourway, self.ink, bool(self.bath))
+        faults += wrong_palette(self.palette, self.ink, "palette")
         if faults:
             raise RecipeError(faults)
         self._take_dyes()

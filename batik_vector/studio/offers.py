@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from batik_vector.fields import OneOf
+from batik_vector.recipe.palettes import PALETTES
 from batik_vector.recipe.reading.field_types import Hint, members
 from batik_vector.recipe.references import Path, dotted
 from batik_vector.units import format_mm, parse_length
@@ -48,8 +49,8 @@ NEEDED: Mapping[str, Mapping[str, Any]] = {
     "layout ifs": {"maps": [{}, {"pre": {"turn": 45, "scale": 0.7}}]},
 }
 """What kinds of a catalogue need besides their name, to draw something at once."""
-COLOURS = ("#1d2f5f", "#7d9cc0", "#6b3a1e", "#b5462f", "#c9974a", "#3f5b3a", "#f4efe2", "#1a1a1a")
-"""Colours of fresh inks: indigo, light indigo, soga, mengkudu, yellow, green, cotton, black."""
+FRESH, DYES = "tiga-negeri", (3, 2, 1, 0, 4)
+"""The palette that fresh inks take their colours from where the recipe names none; indigo comes first."""
 REPEATS = ("grid", "half-drop", "brick", "drop 1/3", "mirror")
 WIDTH, METRES = 100.0, 1500.0
 """mm: of a motif where the tile says no size, and of a fresh cloth."""
@@ -64,7 +65,7 @@ def offers(hint: Hint, path: Path, tables: Mapping[str, Any]) -> tuple[Offer, ..
         return tuple(_named(kind, path, tables, kinded(kind, motifs)) for kind in motifs.load())
     if path == ("ink",):
         number = len(_table(tables, "ink"))
-        return (_named("ink", ("ink",), tables, {"colour": COLOURS[number % len(COLOURS)]}),)
+        return (_named("ink", ("ink",), tables, {"colour": _fresh_colour(number, tables)}),)
     if last == "corner_place" and _corner(path, tables) != "motif":
         return ()
     if last in ("place", "corner_place"):
@@ -82,6 +83,18 @@ def offers(hint: Hint, path: Path, tables: Mapping[str, Any]) -> tuple[Offer, ..
         return tuple(Offer(kind, where, kinded(kind, of), single) for kind in of.load())
     value = _least(last, tables)
     return () if value is None else (Offer(last.removesuffix("s").replace("_", " "), where, value, single),)
+
+
+def _fresh_colour(number: int, tables: Mapping[str, Any]) -> str:
+    """Return the colour of a fresh ink, of so many that there are already."""
+    named = tables.get("palette")
+    colours = PALETTES[named if isinstance(named, str) and named in PALETTES else FRESH].colours
+    return colours[DYES[number % len(DYES)] % len(colours)]
+
+
+def offered_colours() -> list[str]:
+    """Return the colours that a picker shows, those of each palette together."""
+    return list(dict.fromkeys(colour for each in PALETTES.values() for colour in each.colours))
 
 
 def kinded(kind: str, one_of: OneOf) -> dict[str, Any]:
@@ -161,6 +174,8 @@ def suggestions(path: Path, drawings: Sequence[tuple[str, str]]) -> tuple[str, .
         return tuple(GROUPS)
     if key == "machine":
         return tuple(MACHINES)
+    if key == "palette":
+        return tuple(PALETTES)
     if key == "file":
         return tuple(name for name, _ in drawings)
     return ()

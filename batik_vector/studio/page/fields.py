@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from nicegui import ui
 
-from batik_vector.studio.offers import COLOURS
+from batik_vector.studio.offers import offered_colours
 from batik_vector.studio.page.parts import group, icon_button, say, text, told
 from batik_vector.studio.page.slide import Slide
 from batik_vector.studio.text.spelling import spelled
@@ -156,7 +156,7 @@ class Row:
             )
             with button, ui.color_picker(on_pick=lambda event: self._set(event.color)) as picker:
                 picker.q_color.props(
-                    f"default-view=palette :palette={list(COLOURS)!r} format-model=hex no-header"
+                    f"default-view=palette :palette={offered_colours()!r} format-model=hex no-header"
                 )
         self.swatch = button
 
