@@ -6,26 +6,28 @@ the other ink alone: bare cloth stays bare. On a tile traps go on across the sea
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import shapely
 
-from batik_vector.artwork import Artwork, Cell, Geometries, Ink, Layer, Page
+from batik_vector.artwork import Artwork, Cell, Geometries, Ink, Page
 from batik_vector.artwork.overdyeing import linear
 from batik_vector.errors import GeometryError
-from batik_vector.geometry.outlines import of_polygons, to_polygons
+from batik_vector.geometry.outlines import Outlines, of_polygons, to_polygons
 from batik_vector.geometry.regions import oriented
 from batik_vector.machines import Machine
 from batik_vector.processes.options import TrapProcess
 from batik_vector.processes.trapping.choices import By, Covered
 from batik_vector.processes.trapping.covered import CoveredMark, covered_marks
+from batik_vector.processes.trapping.enclosed import enclosed, winding
 from batik_vector.processes.trapping.joining import grown, seam_borders
 from batik_vector.processes.trapping.linking import linked
 from batik_vector.processes.trapping.meeting import meetings, with_corners
-from batik_vector.processes.trapping.spreading import Spread, broadened, moved, repeats, spread
+from batik_vector.processes.trapping.remaining import remaining
+from batik_vector.processes.trapping.spreading import SAG, Spread, broadened, moved, repeats, spread
 from batik_vector.units import STEPS_PER_MM, format_mm
 
 PART = 4
@@ -49,20 +51,31 @@ def apply(page: Page, spec: TrapProcess, machine: Machine) -> Artwork:
             f"width = {format_mm(spec.width)} mm, expected at most {format_mm(side / PART)}: a quarter of "
             "the tile"
         )
-    drawn = [oriented(_in_steps(layer.areas)) for layer in page.layers]
+    width, cell = spec.width * STEPS_PER_MM, page.cell
+    pairs = spreads_under([layer.ink for layer in page.layers], spec.by)
+    whole = [_outlines(layer.areas) for layer in page.layers]
+    begun = enclosed(whole, pairs, cell, width, SAG)
+    left = [
+        remaining(outlines, done, layer.area_names)
+        for outlines, done, layer in zip(begun.layers, begun.done, page.layers, strict=True)
+    ]
+    drawn = [to_polygons(each.areas) for each in left]
     areas = _with_corners(drawn)
-    found, facts = _traps(areas, [layer.ink for layer in page.layers], page.cell, spec)
+    found, facts = _traps(areas, [layer.ink for layer in page.layers], cell, spec, begun.lengths)
     layers, gains = list(page.layers), list[dict[str, Any]]()
     borders = page.borders
     for number, traps in enumerate(found):
+        layer, outlines = page.layers[number], begun.layers[number]
         if len(traps):
-            before = float(shapely.area(layers[number].areas).sum())
-            layers[number] = _with(layers[number], areas[number], drawn[number], traps, page.cell)
-            ink = layers[number].ink.name
-            more = float(shapely.area(layers[number].areas).sum()) - before
-            gains.append({"ink": ink, "area_mm2": round(more, 3)})
-            borders = frozenset(each for each in borders if each[0] != ink)
-            borders |= seam_borders(ink, _in_steps(layers[number].areas), page.cell)
+            made, names = left[number].with_all(*grown(areas[number], drawn[number], traps, cell))
+            layers[number] = replace(layer, areas=_in_mm(made), area_names=names)
+            borders = frozenset(each for each in borders if each[0] != layer.ink.name)
+            borders |= seam_borders(layer.ink.name, made, cell)
+        elif outlines is not whole[number]:
+            layers[number] = replace(layer, areas=to_polygons(outlines, STEPS_PER_MM))
+        if layers[number] is not layer:
+            more = float(shapely.area(layers[number].areas).sum() - shapely.area(layer.areas).sum())
+            gains.append({"ink": layer.ink.name, "area_mm2": round(more, 3)})
     done = (*page.provenance.processes, str(spec))
     return replace(
         page,
@@ -73,9 +86,16 @@ def apply(page: Page, spec: TrapProcess, machine: Machine) -> Artwork:
     )
 
 
-def _in_steps(areas: Geometries) -> Geometries:
-    made = shapely.transform(areas, lambda xy: np.rint(xy * STEPS_PER_MM))
-    return np.asarray(made, dtype=object)
+def _outlines(areas: Geometries) -> Outlines:
+    """Return areas in steps, outer rings anticlockwise and holes clockwise."""
+    found = of_polygons(areas, float(STEPS_PER_MM))
+    if winding(found).all():
+        return found
+    return of_polygons(oriented(areas), float(STEPS_PER_MM))
+
+
+def _in_mm(areas: Geometries) -> Geometries:
+    return np.asarray(shapely.transform(areas, lambda xy: xy / STEPS_PER_MM), dtype=object)
 
 
 def _with_corners(drawn: Sequence[Geometries]) -> list[Geometries]:
@@ -101,9 +121,13 @@ def _lightness(colour: str) -> float:
 
 
 def _traps(
-    areas: list[Geometries], inks: Sequence[Ink], cell: Cell, spec: TrapProcess
+    areas: list[Geometries],
+    inks: Sequence[Ink],
+    cell: Cell,
+    spec: TrapProcess,
+    begun: Mapping[tuple[int, int], float],
 ) -> tuple[list[Geometries], dict[str, Any]]:
-    """Return what each ink gains, and what there is to say of it."""
+    """Return what each ink gains, and what there is to say of it; ``begun`` has lengths that are done."""
     width = spec.width * STEPS_PER_MM
     meet = meetings([of_polygons(each) for each in areas], cell)
     gains = [[np.empty(0, dtype=object)] for _ in areas]
@@ -111,22 +135,18 @@ def _traps(
     pairs = list[dict[str, Any]]()
     for one, other in spreads_under(inks, spec.by):
         lines = meet.lines[(meet.left == one) & (meet.right == other)]
+        length = float(shapely.length(lines).sum()) + begun.get((one, other), 0.0)
+        if length:
+            long = round(length / STEPS_PER_MM, 2)
+            pairs.append({"ink": inks[one].name, "under": inks[other].name, "length_mm": long})
         if not len(lines):
             continue
-        length = float(shapely.length(lines).sum())
         lines = linked(lines, cell)
         bands = broadened(lines, width)
         which, shifts = repeats(bands, cell)
         traps = spread(moved(lines[which], shifts), moved(bands[which], shifts), areas[other], which, shifts)
         gains[one].append(traps.areas)
         under[other].append(traps)
-        pairs.append(
-            {
-                "ink": inks[one].name,
-                "under": inks[other].name,
-                "length_mm": round(length / STEPS_PER_MM, 2),
-            }
-        )
     covered = [
         (inks[number].name, mark)
         for number, each in enumerate(under)
@@ -155,10 +175,3 @@ def _too_broad(covered: Sequence[tuple[str, CoveredMark]], spec: TrapProcess) ->
         f'width = {format_mm(spec.width)} mm, expected {would}: the mark of ink "{ink}" at '
         f'({x:.3f}, {y:.3f}) mm{others} would be covered whole; covered = "accept" traps it so'
     )
-
-
-def _with(layer: Layer, areas: Geometries, drawn: Geometries, traps: Geometries, cell: Cell) -> Layer:
-    """Return a layer whose areas have grown by their traps."""
-    made, names = grown(areas, drawn, layer.area_names, traps, cell)
-    in_mm = np.asarray(shapely.transform(made, lambda xy: xy / STEPS_PER_MM), dtype=object)
-    return replace(layer, areas=in_mm, area_names=names)

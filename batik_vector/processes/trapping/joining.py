@@ -4,7 +4,7 @@ the seam.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 import numpy as np
 import shapely
@@ -23,24 +23,24 @@ CRUMB = 4.0
 """Steps of breadth, on average, below which an area is nothing that could be printed."""
 
 
-def grown(
-    areas: Geometries, drawn: Geometries, names: Sequence[str], traps: Geometries, cell: Cell
-) -> tuple[Geometries, tuple[str, ...]]:
-    """Return areas joined with traps, and their names.
+def grown(areas: Geometries, drawn: Geometries, traps: Geometries, cell: Cell) -> tuple[Geometries, Index]:
+    """Return areas joined with traps, and in the place of which area each stands.
 
     Args:
         areas: of one ink, in steps, that do not overlap, with corners where others have them.
         drawn: the same as they were drawn: they stay so where they gain nothing.
-        names: of the areas.
         traps: what they gain; each touches an area, or does so across the seam.
         cell: of the tile.
+
+    Returns:
+        The areas, in the order of those in the place of which they stand: where several are joined the first;
+        what goes on across the seam alone comes last, and has the number of areas.
     """
     met = np.zeros(len(areas), bool)
     met[shapely.STRtree(areas).query(traps, predicate="dwithin", distance=MEND)[1]] = True
     joined = _together(np.concatenate([areas[met], traps]))
     joined = _apart(_mended(_apart(_rounded(joined)), cell))
     joined = joined[2 * shapely.area(joined) >= CRUMB * shapely.length(joined)]
-    # A joined area stands where the first of those stood that are in it.
     number = np.flatnonzero(met)
     inside = shapely.get_coordinates(shapely.point_on_surface(areas[met]))
     at, into = shapely.STRtree(joined).query(shapely.points(inside), predicate="intersects")
@@ -49,9 +49,7 @@ def grown(
     rest = np.flatnonzero(~met)
     order = np.lexsort([np.arange(len(rest) + len(joined)), np.concatenate([rest, first])])
     every = _cornered(np.concatenate([drawn[rest], oriented(joined)]))[order]
-    # What goes on across the seam alone has the name of no area here.
-    named = [*names, names[0] if len(names) else ""]
-    return every, tuple(named[each] for each in np.concatenate([rest, first])[order].tolist())
+    return every, np.concatenate([rest, first])[order]
 
 
 def _cornered(areas: Geometries) -> Geometries:
