@@ -47,24 +47,32 @@ def grown(areas: Geometries, drawn: Geometries, traps: Geometries, cell: Cell) -
     first = np.full(len(joined), len(areas))
     np.minimum.at(first, into, number[at])
     rest = np.flatnonzero(~met)
-    order = np.lexsort([np.arange(len(rest) + len(joined)), np.concatenate([rest, first])])
-    every = _cornered(np.concatenate([drawn[rest], oriented(joined)]))[order]
-    return every, np.concatenate([rest, first])[order]
+    every, which = _cornered(np.concatenate([drawn[rest], oriented(joined)]))
+    place = np.concatenate([rest, first])[which]
+    order = np.argsort(place, kind="stable")
+    return every[order], place[order]
 
 
-def _cornered(areas: Geometries) -> Geometries:
-    """Return areas with corners where one lies on another's edge, if they overlap by a bit there in mm."""
+def _cornered(areas: Geometries) -> tuple[Geometries, Index]:
+    """Return areas with corners where one lies on another's edge, if they overlap by a bit there in mm, and
+    which each was; one that comes to touch itself there may become several.
+    """
     apart = np.asarray(shapely.transform(areas, lambda xy: xy / STEPS_PER_MM), dtype=object)
     one, other = shapely.STRtree(apart).query(apart, predicate="intersects")
     one, other = one[one < other], other[one < other]
     off = ~np.asarray(shapely.touches(apart[one], apart[other]), bool)
     some = np.unique(np.concatenate([one[off], other[off]]))
     if not len(some):
-        return areas
+        return areas, np.arange(len(areas))
     (found,) = with_corners([of_polygons(areas[some])])
     areas = areas.copy()
     areas[some] = to_polygons(found)
-    return areas
+    torn = np.flatnonzero(~np.asarray(shapely.is_valid(areas), bool))
+    sound = shapely.make_valid(areas[torn], method="structure", keep_collapsed=False)
+    areas[torn] = shapely.orient_polygons(sound)
+    parts, which = shapely.get_parts(areas, return_index=True)
+    kept = shapely.get_type_id(parts) == shapely.GeometryType.POLYGON
+    return np.asarray(parts[kept], dtype=object), which[kept]
 
 
 def _together(areas: Geometries) -> Geometries:

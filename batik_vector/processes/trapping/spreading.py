@@ -207,7 +207,7 @@ def _touching(
     """Return which parts touch their stretch: others lie across a gap from it, or go on across the seam."""
     alone = np.bincount(index, minlength=len(pairs)) == 1
     # Where a part has a corner of a stretch, it lies along it: most do, and need no measuring.
-    near = np.asarray(alone[index] & _share_corners(parts, lines), bool)
+    near = np.asarray(alone[index] & _share_corners(parts, lines, pairs[index, 1]), bool)
     near[np.isin(index, list(joined))] = False
     asked = np.flatnonzero(~near)
     if not len(asked):
@@ -239,10 +239,10 @@ def _go_on(parts: Geometries, which: Index, near: NDArray[np.bool_]) -> None:
         near[one[more]] = True
 
 
-def _share_corners(parts: Geometries, lines: Geometries) -> NDArray[np.bool_]:
-    """Return which parts have a corner in the same place as any of some lines."""
+def _share_corners(parts: Geometries, lines: Geometries, line: Index) -> NDArray[np.bool_]:
+    """Return which parts have a corner in the same place as their line: ``line`` has the number of each."""
     coords, part = shapely.get_coordinates(parts, return_index=True)
-    corners = shapely.get_coordinates(lines)
+    corners, of = shapely.get_coordinates(lines, return_index=True)
     if not len(corners):
         return np.zeros(len(parts), bool)
     # Corners of stretches are whole steps, and numbers are found faster than pairs.
@@ -250,5 +250,10 @@ def _share_corners(parts: Geometries, lines: Geometries) -> NDArray[np.bool_]:
     among = np.flatnonzero(((coords == np.rint(coords)) & (coords >= low) & (coords <= high)).all(axis=1))
     span = int(high[1] - low[1]) + 1
     one, other = ((xy - low).astype(np.int64) @ (span, 1) for xy in (coords[among], corners))
-    found = among[np.isin(one, other)]
+    places, which = np.unique(other, return_inverse=True)
+    at = np.minimum(np.searchsorted(places, one), len(places) - 1)
+    here = places[at] == one
+    among, at = among[here], at[here]
+    # Of its own line: that of another may lie across a gap from it.
+    found = among[np.isin(at * len(lines) + line[part[among]], which.ravel() * len(lines) + of)]
     return np.bincount(part[found], minlength=len(parts)) > 0
