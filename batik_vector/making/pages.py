@@ -12,6 +12,7 @@ from batik_vector.artwork import Artwork, Cell, Page
 from batik_vector.errors import Fault, GeometryError, RecipeError
 from batik_vector.export import FORMATS, swatch, write_page
 from batik_vector.machines.profile import Machine
+from batik_vector.processes.printing.options import SeparateProcess
 from batik_vector.recipe.drawing import Svg
 from batik_vector.recipe.model import OutputSpec, Recipe
 from batik_vector.recipe.outputs import Piece, SwatchOutput
@@ -178,6 +179,12 @@ def render_output(page: Page, output: OutputSpec, sink: BinaryIO, latest: Latest
 
 def finished(page: Page, output: OutputSpec, latest: Latest) -> tuple[Page, Mapping[str, Any]]:
     """Return a page as an output shows it and its processes leave it, and what these have to report."""
+    if isinstance(page, Artwork) and _separates(output):
+        # The plate of the tile is set out, so that lines come as areas with both halves at its edges.
+        names = [layer.ink.name for layer in page.layers]
+        done, facts = prepared(page, output, latest)
+        if isinstance(done, Artwork):
+            return _set_out(done, output, names), facts
     if isinstance(page, Artwork):
         page = _set_out(page, output)
     elif getattr(output, "marks", False):
@@ -230,7 +237,12 @@ def _extent(tile: Artwork, output: OutputSpec) -> tuple[tuple[int, int], float]:
     return getattr(output, "repeat", (1, 1)), getattr(output, "bleed", 0.0)
 
 
-def _set_out(tile: Artwork, output: OutputSpec) -> Page:
+def _separates(output: OutputSpec) -> bool:
+    return bool(output.process) and isinstance(output.process[-1], SeparateProcess)
+
+
+def _set_out(tile: Artwork, output: OutputSpec, names: Sequence[str] = ()) -> Page:
+    """Return a tile as an output shows it; ``names`` are of all inks, where it is the plate of one."""
     (across, up), bleed = _extent(tile, output)
     marks = getattr(output, "marks", False)
     # What a machine is to follow is not drawn twice.
@@ -242,14 +254,14 @@ def _set_out(tile: Artwork, output: OutputSpec) -> Page:
     from batik_vector.tiling.cloth.field import field_page
 
     page = field_page(tile, across, up, bleed, whole)
-    return _marked(page) if marks else page
+    return _marked(page, names) if marks else page
 
 
-def _marked(page: Page) -> Page:
+def _marked(page: Page, names: Sequence[str] = ()) -> Page:
     from batik_vector.tiling.cloth.print_marks import with_print_marks
     from batik_vector.tiling.cloth.yardage import Yardage
 
-    return with_print_marks(page) if isinstance(page, Yardage) else page
+    return with_print_marks(page, names) if isinstance(page, Yardage) else page
 
 
 def size_of(page: Page, output: OutputSpec) -> list[float]:

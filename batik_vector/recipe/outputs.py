@@ -29,6 +29,9 @@ _FILE_WORD = r"[\w][\w .+-]{0,79}(?<![ .])\Z"
 Ways: TypeAlias = Annotated[
     bool, Says("after a process, show the ways with the tool up, thin, in a layer that plotters skip")
 ]
+Marks: TypeAlias = Annotated[
+    bool, Says("crop and registration marks, the names of the inks, and a patch of each, round the page")
+]
 Count: TypeAlias = Annotated[int, Between(1, 200)]
 
 
@@ -110,9 +113,7 @@ class PdfOutput(OutputSpec, PdfOptions):
     bleed: Annotated[
         Annotated[Length, Between(0, 100)], Says("how far the pattern goes on beyond the trim")
     ] = 0.0
-    marks: Annotated[
-        bool, Says("crop and registration marks, the names of the inks, and a patch of each, round the page")
-    ] = False
+    marks: Marks = False
     wrap: Annotated[
         bool | None,
         Says(
@@ -167,6 +168,7 @@ class PngOutput(OutputSpec, PngOptions):
     writer = PngOptions
     travel: Ways = False
     repeat: Annotated[tuple[Count, Count], Says("how many tiles across and up")] = (1, 1)
+    marks: Marks = False
 
     @property
     def options(self) -> PngOptions:
@@ -184,6 +186,7 @@ class TiffOutput(OutputSpec, TiffOptions):
 
     format = "tiff"
     writer = TiffOptions
+    marks: Marks = False
 
     def completed(self) -> TiffOutput:
         """Return the output with what it goes through in the end: one bit tells of one ink."""

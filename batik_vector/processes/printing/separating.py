@@ -1,8 +1,8 @@
 """Plates: what each ink prints, as the inks say: cut out where others knock it out, whole beneath others.
 
-Lines of a tile become areas as broad as their ink draws them, and the half of a body that lies across the
-tile's edge is drawn on the edge opposite. A cloth keeps its trim marks, by which plates are laid over one
-another.
+Lines become areas as broad as their ink draws them. Of a tile the half of a body that lies across its edge
+is drawn on the edge opposite; a cloth ends where it is cut, and its lines come piece by piece as areas that
+may lie over one another. A cloth keeps its trim marks, by which plates are laid over one another.
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ from batik_vector.artwork import (
     Ink,
     Layer,
     Margins,
+    Overlap,
     Page,
     Plate,
     Provenance,
@@ -30,8 +31,8 @@ from batik_vector.artwork import (
 )
 from batik_vector.errors import GeometryError, unknown_name
 from batik_vector.geometry.arrangement import arranged
-from batik_vector.geometry.outlines import Outlines, together
-from batik_vector.geometry.regions import oriented
+from batik_vector.geometry.outlines import Outlines, nothing, of_polygons, together
+from batik_vector.geometry.regions import oriented, polygonal
 from batik_vector.machines import Machine
 from batik_vector.processes.bodies import inked
 from batik_vector.processes.printing.options import PlateColour, SeparateProcess
@@ -94,7 +95,7 @@ class OnePlate:
 
     @property
     def vertex_count(self) -> int:
-        """Vertices of the whole page, which is no fewer than the plate has."""
+        """Vertices of the whole page; bodies of lines have about twice as many as the lines."""
         return self.page.vertex_count
 
     @property
@@ -103,18 +104,37 @@ class OnePlate:
         return tuple(_in_colour(self.page.plates[number], self.colour) for number in self.kept)
 
     def areas(self, number: int) -> Iterator[Outlines]:
-        """Yield the areas of a layer, in pieces."""
-        return self.page.areas(self.kept[number])
+        """Yield the areas of a layer, the bodies of its lines among them, in pieces."""
+        plate = self.page.plates[self.kept[number]]
+        yield from self.page.areas(self.kept[number])
+        if not plate.guide:
+            for piece in self.page.lines(self.kept[number]):
+                yield _body(self.page, plate.ink, piece)
 
     def lines(self, number: int) -> Iterator[Outlines]:
-        """Yield the centre lines of a layer, in pieces."""
-        return self.page.lines(self.kept[number])
+        """Yield the guides, in pieces."""
+        if self.page.plates[self.kept[number]].guide:
+            yield from self.page.lines(self.kept[number])
 
 
 def _in_colour(plate: Plate, colour: PlateColour) -> Plate:
-    if colour is PlateColour.INK:
-        return plate
-    return replace(plate, ink=_black(plate.ink))
+    ink = plate.ink if colour is PlateColour.INK else _black(plate.ink)
+    if plate.guide or not plate.lines:
+        return replace(plate, ink=ink)
+    # Bodies come piece by piece, and may lie over areas and over one another.
+    return replace(plate, ink=replace(ink, overlap=Overlap.OVERLAY), areas=True, lines=False)
+
+
+def _body(page: Page, ink: Ink, lines: Outlines) -> Outlines:
+    """Return lines of a page as areas as broad as their ink draws them, cut off where its drawing ends."""
+    made = inked(page, ink, nothing(), lines)
+    made = polygonal(shapely.union_all(made, grid_size=1))
+    over = round(page.bleed * STEPS_PER_MM)
+    box = shapely.box(-over, -over, page.cell.columns + over, page.cell.rows + over)
+    across = ~np.asarray(shapely.contains_properly(box, made), bool)
+    cut = polygonal(shapely.intersection(made[across], box, grid_size=1))
+    found = of_polygons(oriented(np.concatenate([made[~across], cut])))
+    return replace(found, names=(ink.name,) * len(found))
 
 
 def _black(ink: Ink) -> Ink:

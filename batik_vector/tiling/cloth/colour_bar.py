@@ -28,12 +28,16 @@ GAP = 2.0
 
 @frozen
 class ColourBar:
-    """Where patches and names stand: in rows of ``width`` below the ordinate ``top``, under the title."""
+    """Where patches and names stand: in rows of ``width`` below the ordinate ``top``, under the title.
+
+    ``first`` is which of the names the page's lowest ink has.
+    """
 
     title: str
     names: tuple[str, ...]
     width: float
     top: float
+    first: int = 0
 
     @property
     def size(self) -> tuple[float, float]:
@@ -59,9 +63,9 @@ class ColourBar:
 
     def patch(self, number: int) -> Outlines:
         """Return the patch and the name of an ink as areas, in steps."""
-        _, x, y = self._places()[number]
+        _, x, y = self._places()[self.first + number]
         patch = shapely.box(x, y, x + PATCH, y + PATCH)
-        strokes = lettered(self.names[number], LETTER)
+        strokes = lettered(self.names[self.first + number], LETTER)
         corner = (x + PATCH + GAP / 2, y + (PATCH - LETTER) / 2)
         body = shapely.union_all(
             [shapely.LineString(each + corner).buffer(STROKE / 2, quad_segs=4) for each in strokes]

@@ -12,15 +12,17 @@ from batik_vector.tiling.cloth.yardage import Yardage
 from batik_vector.units import STEPS_PER_MM
 
 
-def with_print_marks(page: Yardage) -> Yardage:
+def with_print_marks(page: Yardage, names: Sequence[str] = ()) -> Yardage:
     """Return a page with marks in margins that are wide enough for them.
 
-    What has marks already, as a cloth may, keeps its own and gets the colour bar below them.
+    What has marks already, as a cloth may, keeps its own and gets the colour bar below them. The plate of one
+    ink among ``names`` has its patch where it is in the bar of all.
     """
-    names = [each.ink.name for each in page.drawn]
+    drawn = [each.ink.name for each in page.drawn]
+    names = names or drawn
     guides = page.guides or _guides(page.cell, page.bleed)
     before = page.margins if page.guides else _both(page.margins, guides.margins())
-    bar = _bar(page.title, page.cell, names, before)
+    bar = replace(_bar(page.title, page.cell, names, before), first=list(names).index(drawn[0]))
     return replace(page, guides=guides, bar=bar, margins=bar.margins(before, page.cell.width))
 
 

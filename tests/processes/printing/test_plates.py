@@ -133,6 +133,60 @@ def test_the_half_of_a_line_across_the_edge_is_on_the_other_one() -> None:
     assert certify(done).passed
 
 
+MARKED = """
+[[output]]
+format = "tiff"
+dpi = 254
+marks = true
+
+[[output]]
+format = "tiff"
+name = "plain"
+dpi = 254
+
+[[output]]
+format = "pdf"
+marks = true
+process = { kind = "separate" }
+"""
+
+
+def test_plates_of_a_tile_have_marks_and_the_name_of_their_ink(recipe: Path) -> None:
+    recipe.write_text(RECIPE + MARKED)
+    code, report, _ = call(recipe)
+    assert code == 0
+    files = {Path(each["path"]).name: each for each in report["recipes"][0]["files"]}
+    assert files["p-indigo.tiff"]["size_mm"] == files["p-lines.tiff"]["size_mm"] == [120, 84.5]
+    out = recipe.parent / "out"
+    marked = [~np.asarray(Image.open(out / f"p-{end}.tiff")) for end in ENDS]
+    plain = [~np.asarray(Image.open(out / f"p-plain-{end}.tiff")) for end in ENDS]
+    # The tile is where its trim marks say, and as it is without them, lines broad and on both edges.
+    for one, other in zip(marked, plain, strict=True):
+        assert (one[140:340, 140:340] == other).all()
+    # Crosses, trim marks, the bar and the title stand on every plate, and its own patch on each alone.
+    common = marked[0] & marked[1] & marked[2]
+    assert common.sum() > 3000
+    for one in marked:
+        own = one & ~common
+        own[140:340, 140:340] = False
+        assert 60 * 60 < own.sum() < 60 * 60 + 1500
+    own = [one[480:] & ~common[480:] for one in marked]
+    assert not (own[0] & own[1] | own[1] & own[2] | own[0] & own[2]).any()
+    assert (out / "p-indigo.pdf").exists()
+
+
+def test_lines_on_a_plate_of_a_cloth_are_areas(recipe: Path) -> None:
+    recipe.write_text(RECIPE + '\n[yardage]\nwidth = "40 mm"\nlength = "40 mm"\nmarks = true\n')
+    code, _, _ = call(recipe, "-f", "svg", "--process", "separate ink=lines")
+    assert code == 0
+    found = read_svg(recipe.parent / "out" / "p.svg").artwork
+    (plate,) = (each for each in found.layers if each.ink.name == "lines")
+    assert not len(plate.lines)
+    # Of a ring for each tile, as broad as the ink.
+    covered = shapely.area(shapely.union_all(plate.areas))
+    assert covered == pytest.approx(4 * np.pi * 8 * 0.8, rel=0.02)
+
+
 def test_pixels_that_are_not_whole_are_told(recipe: Path) -> None:
     _, report, _ = call(recipe, "-f", "tiff,png", "--process", "separate", "--dpi", "150")
     words = report["recipes"][0]["warnings"]
