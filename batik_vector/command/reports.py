@@ -195,7 +195,7 @@ def _remarks(certificate: dict[str, Any]) -> list[str]:
 
 
 def made_of(done: dict[str, Any]) -> Iterator[str]:
-    """Yield in lines how a compiled recipe came out: what was stretched, what was tossed."""
+    """Yield in lines how a compiled recipe came out: what was stretched, tossed and fitted."""
     across, along = done.get("stretch_percent", (0.0, 0.0))
     if max(abs(across), abs(along)) >= TOLD_PERCENT:
         ways = (per_cent(1 + share / 100) for share in (across, along))
@@ -207,6 +207,14 @@ def made_of(done: dict[str, Any]) -> Iterator[str]:
         yield (
             f"place[{toss['place']}]: {counts} tossed, {100 * toss['covers']:.1f} % covered, "
             f"{toss['per_m2']:,.0f} per m², least gap {toss['distance']:g} mm"
+        )
+    for stripes in done.get("stripes", ()):
+        asked = stripes["asked"]
+        off = "" if asked is None or round(asked, 2) == round(stripes["angle"], 2) else f" (asked: {asked:g})"
+        yield (
+            f"place[{stripes['place']}]: {stripes['lines']} lines at {stripes['angle']:.2f} degrees{off}, "
+            f"{stripes['distance']:.3f} mm apart, links of {stripes['link']:.3f} mm, "
+            f"stretched by {per_cent(stripes['stretch'])}"
         )
     for number, fits in _by_border(done.get("yardage", {}).get("borders", ())).items():
         sides = ", ".join(f"{fit['side']} {fit['periods']:g}" for fit in fits)

@@ -106,14 +106,20 @@ def _contours(placement: Placement, recipe: Recipe) -> str:
 
 
 def _facts(recipe: Recipe, placed: Sequence[Placed]) -> dict[str, Any]:
-    """Return how the tile was stretched, in per cent, and how its tosses came out."""
+    """Return how the tile was stretched, in per cent, and how its tosses and fitted stripes came out."""
     stretch = [round(100 * (factor - 1), 6) for factor in recipe.tiling.stretch]
     tosses = [
         {"place": number, **asdict(each.tossed.report)}
         for number, each in enumerate(placed)
         if each.tossed is not None
     ]
-    return ({"stretch_percent": stretch} if any(stretch) else {}) | ({"tossed": tosses} if tosses else {})
+    stripes = [
+        {"place": number, **asdict(each.fitted)}
+        for number, each in enumerate(placed)
+        if each.fitted is not None
+    ]
+    facts = {"stretch_percent": stretch if any(stretch) else [], "tossed": tosses, "stripes": stripes}
+    return {name: found for name, found in facts.items() if found}
 
 
 def compile_cloth(

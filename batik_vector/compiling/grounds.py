@@ -14,7 +14,8 @@ from batik_vector.errors import GeometryError
 from batik_vector.geometry.maps.affine import Affine
 from batik_vector.geometry.sampling import Array
 from batik_vector.recipe.figures import Figure, draw, size_of
-from batik_vector.recipe.motif import Motif, Treatment
+from batik_vector.recipe.motif import MOTIFS, Motif, Treatment
+from batik_vector.recipe.motifs.composing import Banded
 from batik_vector.recipe.placement import Placement
 from batik_vector.tiling.layouts import Clear, Stripes, Toss
 from batik_vector.tiling.symmetry.orbits import Orbit
@@ -114,14 +115,24 @@ def scattered(
     return Tossed(tuple(copies @ grown for copies in tossed.copies), tossed.field, tossed.report)
 
 
-def striped(placement: Placement, spec: Stripes, scale: float, unit: Cell, ground: Ground) -> Courses:
-    """Return where the lines of a placement run."""
+def striped(
+    placement: Placement, motif: Motif, spec: Stripes, scale: float, unit: Cell, ground: Ground
+) -> Courses:
+    """Return where the lines of a placement run.
+
+    Raises:
+        GeometryError: where they are to fit a motif that is no band.
+    """
     from batik_vector.tiling.torus.stripes import courses
 
     orbit = ground.orbit
     middle = unit.width / 2 / orbit.base.a, unit.height / 2 / orbit.base.d
     x, y = orbit.base.at(np.array([placement.at or orbit.middle or middle]))[0].tolist()
-    return courses(spec, ground.lattice, (x, y), scale)
+    if spec.fit and not isinstance(motif, Banded):
+        kinds = ", ".join(name for name, kind in MOTIFS.items() if issubclass(kind, Banded))
+        raise GeometryError(f"fit = true: the motif is no band and has no breadth, expected one of {kinds}")
+    breadth = motif.across if isinstance(motif, Banded) else 0.0
+    return courses(spec, ground.lattice, (x, y), scale, breadth)
 
 
 def _drawn(motif: Motif, scale: float, tolerance: float) -> tuple[list[Figure], float]:

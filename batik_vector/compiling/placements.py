@@ -33,6 +33,7 @@ from batik_vector.units import GRID_MM
 from batik_vector.values import frozen
 
 if TYPE_CHECKING:
+    from batik_vector.tiling.torus.stripes import StripesReport
     from batik_vector.tiling.tossing.toss import Tossed
 
 KEPT_PLACEMENTS, KEPT_VERTICES = 32, 50_000
@@ -54,11 +55,12 @@ GRID_SHARE = 1.5 * GRID_MM
 
 @frozen
 class Placed:
-    """The sheets of a placement, bottom first, how many vertices they have, and the toss where it is one."""
+    """The sheets of a placement, bottom first, how many vertices they have, its toss and its fitted lines."""
 
     sheets: list[Sheet]
     vertices: int
     tossed: Tossed | None = None
+    fitted: StripesReport | None = None
 
 
 def place(
@@ -245,7 +247,7 @@ def _ground(
     finest = max(recipe.tolerance - GRID_SHARE, recipe.tolerance / 2)
     finer = {name: each * scale / finest for name, each in coarse.items()}
     times = len(orbit.operations)
-    tossed, drawn = None, dict[str, Laid]()
+    tossed, fitted, drawn = None, None, dict[str, Laid]()
     fills = Work(placement, inks, recipe.tolerance, recipe.seed, limit)
     with blame("layout"):
         tosses = [each.tossed for each in before if each.tossed]
@@ -260,8 +262,9 @@ def _ground(
                     shown = filled(figures, name, motif, maps, times, fills)
                     drawn[name] = _multiplied(Laid(shown, maps), orbit, finest)
         elif isinstance(placement.layout, Stripes):
-            lines = striped(placement, placement.layout, scale, unit, ground)
             for name, motif in motifs.items():
+                lines = striped(placement, motif, placement.layout, scale, unit, ground)
+                fitted = lines.report
                 _refuse_past(limit, rough[name], len(lines.starts) * lines.links, times, finer[name])
                 one = Affines.of([Affine.scale(scale)])
                 links = len(lines.starts) * lines.links
@@ -271,7 +274,7 @@ def _ground(
                     for figure in shown
                 ]
                 drawn[name] = _multiplied(Laid(figures, ONE), orbit, finest)
-    return _placed(drawn, placement, inks, recipe.tolerance, tossed)
+    return replace(_placed(drawn, placement, inks, recipe.tolerance, tossed), fitted=fitted)
 
 
 def _multiplied(laid: Laid, orbit: Orbit, crumb: float) -> Laid:

@@ -256,6 +256,18 @@ MOTIFS: Mapping[str, type] = Kinds(
         "cockscomb": "upright.Cockscomb",
         "leaf": "leaf.LeafMotif",
         "vine": "vine.Vine",
+        "parang": "parang.Parang",
+        "lereng": "lereng.Lereng",
+        "miao-band": "lereng.MiaoBand",
+        "tumpal": "tumpal.Tumpal",
+        "pucuk-rebung": "tumpal.PucukRebung",
+        "kawung": "squares.Kawung",
+        "truntum": "squares.Truntum",
+        "ceplok": "squares.Ceplok",
+        "jlamprang": "squares.Jlamprang",
+        "nitik": "nitik.Nitik",
+        "mega-mendung": "cloud.MegaMendung",
+        "buketan": "bouquet.Buketan",
     }
 )
 """The catalogue of kinds: each has ``parts()``, and ``keys()`` that say where these stand in its table."""

@@ -27,7 +27,7 @@ class Placement:
     """A motif set on the cloth by a layout, at a size and a place."""
 
     motif: Annotated[
-        Names, Says("name of the motif; a toss, a ring and the paper's layouts may have several")
+        Names, Says("name of the motif; a toss, a ring, a lattice and the paper's layouts may have several")
     ]
     layout: Annotated[AnyLayout, Says("how copies are set out")] = field(default_factory=Single)
     width: Annotated[
@@ -94,8 +94,8 @@ class Placement:
             return
         if not (self.motifs and self.layout.deals):
             raise GeometryError(
-                f"motif = {self._listed()}: only a toss mixes several, and only rings and the paper's "
-                "layouts deal their places out in turn, expected one"
+                f"motif = {self._listed()}: only a toss mixes several, and only rings, lattices and "
+                "the paper's layouts deal their places out in turn, expected one"
             )
         if self.scale is None:
             raise GeometryError(

@@ -107,6 +107,11 @@ BEYOND = {
         "a turn of stripes",
         "a line over itself",
         "lines flipped in turn",
+        "a winding and an angle",
+        "a flower for a band",
+        "a row of what there is not",
+        "a band of nothing",
+        "a grid of odd steps",
     ),
     *(
         "a point",

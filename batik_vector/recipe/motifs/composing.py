@@ -81,6 +81,15 @@ class Composed:
         return tuple(key for key, _ in self._composed)
 
 
+class Banded(Composed):
+    """A kind that is one link of a band, from x = 0 to 1: bands lie side by side where they are fitted."""
+
+    @property
+    def across(self) -> float:
+        """How broad the band is, in links."""
+        raise NotImplementedError
+
+
 def part(
     key: str,
     look: Dress,

@@ -180,9 +180,13 @@ class Places(Layout):
 
 @frozen(kw_only=True)
 class Lattice(Layout):
-    """Copies in even rows over the whole repeat, for grounds of dots and small flowers."""
+    """Copies in even rows over the whole repeat, for grounds of dots and small flowers, and *sido* cells.
+
+    Several motifs take the places in turn, row by row from the lower left.
+    """
 
     spreads: ClassVar[bool] = False
+    deals: ClassVar[bool] = True
     columns: Annotated[int, Between(1, 2000), Says("copies across the repeat")] = 4
     rows: Annotated[int, Between(1, 2000), Says("copies up the repeat")] = 4
     stagger: Annotated[bool, Says("shift every other row by half a step")] = False

@@ -88,15 +88,26 @@ class Stripes(Layout):
     """Lines that run over the repeat and close on it: the motif, laid end to end along a lattice vector.
 
     The motif's x from 0 to 1 is one link. Links are stretched along so that a whole number of them makes up
-    the vector p·a + q·b of the repeat's own translations a (across) and b (up).
+    the vector p·a + q·b of the repeat's own translations a (across) and b (up). Bands (``parang``,
+    ``lereng``) know how broad they are: with ``fit`` they lie side by side, without a gap or an overlap. Only
+    lines along such a vector close; ``angle`` takes the one that comes nearest with bands of about the
+    placement's size, and what came of it is told.
     """
 
     spreads: ClassVar[bool] = False
-    count: Annotated[int, Between(1, 2000), Says("lines, evenly spaced")] = 12
+    count: Annotated[
+        Annotated[int, Between(1, 2000)] | None,
+        Says("lines, evenly spaced; when left out 12, or with fit as many bands as there is room for"),
+    ] = None
     winding: Annotated[
         tuple[Annotated[int, Between(-60, 60)], Annotated[int, Between(-60, 60)]],
         Says("how often a line goes round the repeat across and up before it closes"),
     ] = (1, 0)
+    angle: Annotated[
+        Annotated[float, Between(-180, 180)] | None,
+        Says("degrees at which the lines run, as nearly as they close; instead of winding"),
+    ] = None
+    fit: Annotated[bool, Says("make bands as broad as the distance of the lines")] = False
     links: Annotated[
         Annotated[int, Between(1, 10_000)] | None,
         Says("motifs end to end along a line; as many as keep their shape when left out"),
@@ -108,6 +119,8 @@ class Stripes(Layout):
 
     def __post_init__(self) -> None:
         check(self)
+        if self.angle is not None and self.winding != (1, 0):
+            raise GeometryError("winding and angle are both given: expected one of them")
         if math.gcd(*self.winding) != 1:
             p, q = self.winding
             common = math.gcd(p, q)
@@ -116,5 +129,5 @@ class Stripes(Layout):
                 f"winding = [{p}, {q}]: the line would run over itself, expected numbers without a "
                 f"common factor, such as {near}"
             )
-        if self.flip and self.count % 2:
+        if self.flip and self.count and self.count % 2:
             raise GeometryError(f"count = {self.count}: lines flipped in turn close only when they are even")

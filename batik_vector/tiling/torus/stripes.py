@@ -21,6 +21,22 @@ NODE = 1e-9
 
 
 @frozen
+class StripesReport:
+    """How lines were fitted to the repeat.
+
+    ``asked`` and ``angle`` are degrees; ``distance`` of the lines and ``link`` along them mm; ``stretch`` is
+    of links along their line beside across.
+    """
+
+    asked: float | None
+    angle: float
+    lines: int
+    distance: float
+    link: float
+    stretch: float
+
+
+@frozen
 class Courses:
     """Where the lines of a ground run.
 
@@ -34,6 +50,7 @@ class Courses:
         sides: 1 or -1 for each line: which way the motif's y points.
         links: motifs end to end along each.
         scale: mm to one motif unit across.
+        report: what was asked for and what came of it, where something was fitted.
     """
 
     vector: tuple[int, int]
@@ -41,6 +58,7 @@ class Courses:
     sides: NDArray[np.int64]
     links: int
     scale: float
+    report: StripesReport | None = None
 
     @property
     def stretch(self) -> float:
@@ -106,7 +124,9 @@ class Courses:
         return np.array(made, dtype=object)
 
 
-def courses(spec: Stripes, lattice: Lattice, at: tuple[float, float], scale: float) -> Courses:
+def courses(
+    spec: Stripes, lattice: Lattice, at: tuple[float, float], scale: float, breadth: float = 0.0
+) -> Courses:
     """Return where the lines of a ground run.
 
     Args:
@@ -114,22 +134,102 @@ def courses(spec: Stripes, lattice: Lattice, at: tuple[float, float], scale: flo
         lattice: of the repeat, in grid steps.
         at: where the first begins, in mm.
         scale: mm to one motif unit.
+        breadth: of the band, in motif units, where the spec fits it to the distance of the lines.
+
+    Raises:
+        GeometryError: where no line runs at about the angle asked for.
     """
+    way = _nearest(spec, lattice, scale, breadth)
+    (p, q), count, links, across = way.winding, way.count, way.links, way.scale
     a, b = (np.array(vector, np.int64) for vector in lattice)
-    p, q = spec.winding
     vector = p * a + q * b
     length = float(np.hypot(*vector))
-    links = spec.links or max(1, round(length / (scale * STEPS_PER_MM)))
+    report = None
+    if spec.fit or spec.angle is not None:
+        area = abs(float(a[0]) * float(b[1]) - float(a[1]) * float(b[0]))
+        report = StripesReport(
+            asked=spec.angle,
+            angle=round(math.degrees(math.atan2(*vector[::-1].tolist())), 3),
+            lines=count,
+            distance=round(area / length / count / STEPS_PER_MM, 4),
+            link=round(length / links / STEPS_PER_MM, 4),
+            stretch=round(way.stretch, 5),
+        )
     r, s = _complement(p, q)
     # The line after the last is the first, moved by a period that goes once across all of them.
-    across = r * a + s * b
-    across = across - round(float(across @ vector) / length**2) * vector
-    shares = np.arange(spec.count) / spec.count
+    over = r * a + s * b
+    over = over - round(float(over @ vector) / length**2) * vector
+    shares = np.arange(count) / count
     creep = shares * spec.creep / links
-    offsets = shares[:, None] * across + creep[:, None] * vector
+    offsets = shares[:, None] * over + creep[:, None] * vector
     starts = np.rint(np.array(at) * STEPS_PER_MM + offsets).astype(np.int64)
-    sides = np.where(np.arange(spec.count) % 2, -1 if spec.flip else 1, 1)
-    return Courses((int(vector[0]), int(vector[1])), starts, sides, links, scale)
+    sides = np.where(np.arange(count) % 2, -1 if spec.flip else 1, 1)
+    return Courses((int(vector[0]), int(vector[1])), starts, sides, links, across, report)
+
+
+LINES = 12
+"""Lines where a recipe says nothing of them."""
+MOST_TURNS = 12
+"""How often lines that are to run at an angle go round the repeat at most, across and up."""
+DEGREES, SIZES, SHAPES = 1.0, 0.06, 0.03
+"""What weighs as much: a degree off the angle, bands 6 % off their size, links stretched by 3 %."""
+FARTHEST = 10.0
+"""Degrees that lines may run off the angle asked for."""
+
+
+@frozen
+class _Way:
+    """One way of laying lines, ``stretch`` of links along beside across, ``off`` degrees from the angle."""
+
+    winding: tuple[int, int]
+    count: int
+    links: int
+    scale: float
+    stretch: float
+    off: float
+
+
+def _nearest(spec: Stripes, lattice: Lattice, scale: float, breadth: float) -> _Way:
+    """Return the way of laying the lines that comes nearest to what is asked for."""
+    if spec.angle is None:
+        return _way(spec, lattice, spec.winding, scale, breadth, 0.0)
+    turns = range(-MOST_TURNS, MOST_TURNS + 1)
+    found = []
+    for winding in ((p, q) for p in turns for q in turns if math.gcd(p, q) == 1):
+        (ax, ay), (bx, by) = lattice
+        x, y = winding[0] * ax + winding[1] * bx, winding[0] * ay + winding[1] * by
+        # A line and its way back are one.
+        off = abs((math.degrees(math.atan2(y, x)) - spec.angle + 180) % 360 - 180)
+        if off <= FARTHEST:
+            found.append(_way(spec, lattice, winding, scale, breadth, off))
+    if not found:
+        raise GeometryError(
+            f"angle = {spec.angle:g}: no lines that close on this repeat run within {FARTHEST:g} degrees of "
+            "it, expected the winding"
+        )
+    return min(found, key=lambda way: (round(_cost(way, scale), 6), way.winding))
+
+
+def _cost(way: _Way, scale: float) -> float:
+    shape = abs(math.log(way.scale / scale)) / SIZES + abs(math.log(way.stretch)) / SHAPES
+    return way.off / DEGREES + shape + 0.05 * (abs(way.winding[0]) + abs(way.winding[1]))
+
+
+def _way(
+    spec: Stripes, lattice: Lattice, winding: tuple[int, int], scale: float, breadth: float, off: float
+) -> _Way:
+    """Return how lines of a winding are laid: in fitting bands, or in lines of the placement's scale."""
+    (ax, ay), (bx, by) = lattice
+    (p, q), steps = winding, STEPS_PER_MM
+    length = math.hypot(p * ax + q * bx, p * ay + q * by) / steps
+    count, across = spec.count or LINES, scale
+    if spec.fit:
+        room = abs(ax * by - ay * bx) / steps**2 / length
+        pairs = 2 if spec.flip else 1
+        count = spec.count or min(max(pairs, pairs * round(room / (scale * breadth * pairs))), 2000)
+        across = room / count / breadth
+    links = spec.links or max(1, round(length / across))
+    return _Way(winding, count, links, across, length / links / across, off)
 
 
 def _complement(p: int, q: int) -> tuple[int, int]:

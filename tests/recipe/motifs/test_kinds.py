@@ -33,6 +33,18 @@ NAMES = {
     "cockscomb": "stalk, leaf, vein, comb, inner, plume, spot",
     "leaf": "stalk, blade, vein",
     "vine": "tendril, leaf, vein, stem",
+    "parang": "mlinjon, pip, rule, tongue, gareng, blade, spine",
+    "lereng": "line, leaves, dots, blades, lozenges",
+    "miao-band": "line, teeth, spirals, meander",
+    "tumpal": "pendant, edge, body, frame, inner, tree",
+    "pucuk-rebung": "bead, body, sheath, heart, seed",
+    "kawung": "star, cecek, bean, ditch, flesh, seed, heart",
+    "truntum": "spark, ray, petal, vein, core, small",
+    "ceplok": "frame, cecek, corner, core, leaf, vein, petal, wreath",
+    "jlamprang": "corner, cross, ray, block, petal, slit, core",
+    "mega-mendung": "body, band 1, band 2, band 3, band 4, band 5",
+    "buketan": "tendril, stem, leaf, vein, petal, core, stamen, bud, sepal",
+    "nitik": "ground, frame, slant, petal, heart",
 }
 MIRRORED = dict.fromkeys(("butterfly", "polar-butterfly", "chrysanthemum", "lotus", "cockscomb"), 90.0)
 """Degrees to which the axis of those points that are their own mirror images."""

@@ -124,8 +124,8 @@ def test_every_named_layout_deals(kind: str) -> None:
         ('scale = "10 mm"', 'width = "90 mm"', "set out at one scale, expected scale instead of width"),
         (
             'kind = "circle", count = 6, radius = 4',
-            'kind = "lattice"',
-            "only rings and the paper's layouts deal",
+            'kind = "mirror"',
+            "only rings, lattices and the paper's layouts deal",
         ),
     ],
 )
