@@ -139,9 +139,10 @@ def test_every_format_is_written(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", SAMPLES)
-def test_the_sample_has_its_picture_and_stands_in_the_gallery(name: str) -> None:
+def test_the_sample_has_its_picture_and_stands_on_its_page(name: str) -> None:
     assert (FOLDER / f"{name}.png").stat().st_size > 2000
-    assert f"({name}.png)" in (FOLDER / "README.md").read_text(encoding="utf-8")
+    page = "FIGURES.md" if name.startswith("figure-") else "README.md"
+    assert f"({name}.png)" in (FOLDER / page).read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("name", SAMPLES)

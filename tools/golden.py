@@ -36,7 +36,8 @@ from tools import travel
 from tools.starters_sheet import SHEET, sheet
 
 SAMPLES = Path(__file__).resolve().parents[1] / "samples"
-GALLERY = "README.md"
+GALLERY, FIGURES = "README.md", "FIGURES.md"
+"""Pages of designs, and of the paper's figures: these prove, they do not please."""
 WIDTH, HEIGHT = 900, 720
 """Pixels of a picture at most."""
 SHAPE = 3 / 2
@@ -179,15 +180,25 @@ def paragraphs(text: str) -> list[str]:
 
 
 def gallery(found: list[Sample]) -> str:
-    """Return the page that shows all samples."""
+    """Return the page that shows all samples but the paper's figures."""
     parts = [
-        "# Samples\n\nEach picture shows several repeats of the tile, those of the paper's figures one. "
-        "`make golden` draws them\nand writes this page."
+        "# Samples\n\nEach picture shows several repeats of the tile. `make golden` draws them and writes this "
+        f"page.\nThe figures of the paper, redrawn, have [a page of their own]({FIGURES})."
     ]
     for word, title in SECTIONS.items():
-        mine = [each for each in found if section(each.path) == word]
+        mine = [each for each in found if section(each.path) == word != "figure"]
         parts += [f"## {title}", *(each.caption() for each in mine)] if mine else []
     return "\n\n".join(parts) + "\n"
+
+
+def figures(found: list[Sample]) -> str:
+    """Return the page of the paper's figures."""
+    head = (
+        f"# {SECTIONS['figure']}\n\nThe figures of Tian et al. 2019 as recipes, one repeat each, to hold the "
+        f"mathematics against.\n[The designs]({GALLERY}) are made of the same curves."
+    )
+    mine = [each.caption() for each in found if section(each.path) == "figure"]
+    return "\n\n".join([head, *mine]) + "\n"
 
 
 def same(one: bytes, other: bytes) -> bool:
@@ -203,12 +214,6 @@ def stale(each: Sample) -> bool:
     """Return whether a sample's picture is missing or shows something else."""
     kept = each.picture_path
     return not kept.exists() or not same(kept.read_bytes(), each.picture())
-
-
-def gallery_is_stale(found: list[Sample]) -> bool:
-    """Return whether the gallery says something else than the recipes."""
-    kept = SAMPLES / GALLERY
-    return not kept.exists() or kept.read_text(encoding="utf-8") != gallery(found)
 
 
 def sheet_is_stale() -> bool:
@@ -227,20 +232,19 @@ def included_page(found: list[Sample]) -> str:
     return included.written(known)
 
 
-def included_is_stale(found: list[Sample]) -> bool:
-    """Return whether the library knows something else of samples and starters than what is measured."""
-    kept = included.MEASURED
-    return not kept.exists() or kept.read_text(encoding="utf-8") != included_page(found)
-
-
 def travel_page(found: list[Sample]) -> str:
     """Return the page that tells how far a pen travels for each sample."""
     return travel.written((each.path.stem, each.page) for each in found)
 
 
-def travel_is_stale(found: list[Sample]) -> bool:
-    """Return whether that page tells other ways than are measured."""
-    return travel.PAGE.read_text(encoding="utf-8") != travel_page(found)
+def pages(found: list[Sample]) -> dict[Path, str]:
+    """Return all texts that are written from the samples."""
+    return {
+        SAMPLES / GALLERY: gallery(found),
+        SAMPLES / FIGURES: figures(found),
+        included.MEASURED: included_page(found),
+        travel.PAGE: travel_page(found),
+    }
 
 
 def _packed(picture: Image.Image) -> Iterator[bytes]:
@@ -270,26 +274,18 @@ def main() -> int:
             each.picture_path.write_bytes(each.picture())
         told = ("stale" if only_check else "drawn") if old else "as it was"
         print(f"{each.picture_path.name:<32} {told}", flush=True)
-    if gallery_is_stale(found):
-        wrong += 1
-        print(f"{GALLERY:<32} {'stale' if only_check else 'written'}")
-        if not only_check:
-            (SAMPLES / GALLERY).write_text(gallery(found), encoding="utf-8")
     if sheet_is_stale():
         wrong += 1
         print(f"{SHEET.name:<32} {'stale' if only_check else 'drawn'}")
         if not only_check:
             SHEET.write_bytes(sheet())
-    if included_is_stale(found):
+    for path, text in pages(found).items():
+        if path.exists() and path.read_text(encoding="utf-8") == text:
+            continue
         wrong += 1
-        print(f"{included.MEASURED.name:<32} {'stale' if only_check else 'written'}")
+        print(f"{path.name:<32} {'stale' if only_check else 'written'}")
         if not only_check:
-            included.MEASURED.write_text(included_page(found), encoding="utf-8")
-    if travel_is_stale(found):
-        wrong += 1
-        print(f"{travel.PAGE.name:<32} {'stale' if only_check else 'written'}")
-        if not only_check:
-            travel.PAGE.write_text(travel_page(found), encoding="utf-8")
+            path.write_text(text, encoding="utf-8")
     for kept in sorted({*SAMPLES.glob("*.png")} - {each.picture_path for each in found}):
         wrong += 1
         print(f"{kept.name:<32} belongs to no recipe")

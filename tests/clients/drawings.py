@@ -28,9 +28,9 @@ MOST_PIXELS = 2600
 
 @functools.cache
 def artwork(name: str) -> Artwork:
-    """Return a drawing: a tile, or a cloth in one piece."""
+    """Return a drawing: a tile, or a cloth that has borders in one piece."""
     recipe = load_recipe(RECIPES[name])
-    return compile_recipe(recipe) if recipe.tile else collected(compile_cloth(recipe))
+    return collected(compile_cloth(recipe)) if recipe.border else compile_recipe(recipe)
 
 
 def per_mm(drawing: Artwork) -> float:
