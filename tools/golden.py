@@ -182,8 +182,8 @@ def paragraphs(text: str) -> list[str]:
 def gallery(found: list[Sample]) -> str:
     """Return the page that shows all samples but the paper's figures."""
     parts = [
-        "# Samples\n\nEach picture shows several repeats of the tile. `make golden` draws them and writes this "
-        f"page.\nThe figures of the paper, redrawn, have [a page of their own]({FIGURES})."
+        "# Samples\n\nEach picture shows several repeats of the tile. `make golden` draws them and writes "
+        f"this page.\nThe figures of the paper, redrawn, have [a page of their own]({FIGURES})."
     ]
     for word, title in SECTIONS.items():
         mine = [each for each in found if section(each.path) == word != "figure"]
