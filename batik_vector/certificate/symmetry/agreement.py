@@ -97,10 +97,13 @@ class Matcher:
 
     def keep_one_cell(self, lattice: Matrix) -> None:
         """Measure from now on by the points of one cell of a finer lattice, on which the pattern repeats."""
-        cell = np.floor(self.all.xy @ np.linalg.inv(lattice).T)
-        steps = cell @ (np.linalg.inv(self.basis) @ lattice).T
-        across, up = np.abs(steps - np.rint(steps)).T
-        self.all = self.all[np.flatnonzero((across < 1e-6) & (up < 1e-6))]
+        (a, b), (c, d) = np.linalg.inv(lattice)
+        x, y = self.whole.xy.T
+        column, row = np.floor(a * x + b * y), np.floor(c * x + d * y)
+        (a, b), (c, d) = np.linalg.inv(self.basis) @ lattice
+        across, up = a * column + b * row, c * column + d * row
+        kept = (np.abs(across - np.rint(across)) < 1e-6) & (np.abs(up - np.rint(up)) < 1e-6)
+        self.all = self.whole[np.flatnonzero(kept)]
         self.telling = np.empty(0, np.intp)
 
     def placed(self, matrix: Matrix, shift: Points) -> Points:

@@ -133,7 +133,6 @@ class _Search:
         times = round(abs(float(np.linalg.det(self.basis) / np.linalg.det(lattice))))
         if times > 1:
             spectra = Spectra(self.drawn, lattice)
-            self.matcher.keep_one_cell(lattice)
         found, stretch = {IDENTITY: np.zeros(2)}, 0.0
         tried: set[Whole] = set()
         for turn in turns(lattice, self.stretch):
@@ -159,20 +158,25 @@ class _Search:
     def _finest(self, spectra: Spectra) -> Matrix:
         """Return a reduced basis of all translations of the pattern."""
         places = spectra.peaks(IDENTITY, AGREEMENT, self._free(self.basis))
+        lattice, finer = self.basis, np.eye(2)
         shifts: list[tuple[Fraction, Fraction]] = []
-        rows = refined(shifts)
         looked: list[Vector] = []
         for place in places[: SHIFTS + 1]:
-            inside = place @ np.linalg.inv(np.array(rows, float))
-            if self._whole(inside, self.basis @ np.array(rows, float).T):
+            if self._whole(place @ np.linalg.inv(finer), lattice):
                 continue
             # A shift and its opposite hold or fail together.
             if any(self._whole(place + other, self.basis) for other in looked):
                 continue
             looked.append(place)
             shift = self._freed(self.matcher.placed(np.eye(2), self.basis @ place))
-            part = fractions_of(np.asarray(np.linalg.solve(self.basis, shift)), self.basis, self.slack)
+            rows = refined(shifts)
+            # Of what is known to repeat, the parts are larger than of the tile.
+            part = fractions_of(np.asarray(np.linalg.solve(lattice, shift)), lattice, self.slack)
             if part is not None:
+                part = (
+                    part[0] * rows[0][0] + part[1] * rows[1][0],
+                    part[0] * rows[0][1] + part[1] * rows[1][1],
+                )
                 shift = self.basis @ np.array(part, float)
             if part is not None and self._too_fine(refined([*shifts, part])):
                 continue
@@ -180,8 +184,10 @@ class _Search:
             if part is not None and self._accepted(fit, IDENTITY, np.eye(2), shift):
                 self.deviation = max(self.deviation, fit.worst)
                 shifts.append(part)
-                rows = refined(shifts)
-        return reduced(self.basis @ np.array(rows, float).T) if shifts else self.basis
+                finer = np.array(refined(shifts), float)
+                lattice = self.basis @ finer.T
+                self.matcher.keep_one_cell(reduced(lattice))
+        return reduced(lattice) if shifts else self.basis
 
     def _too_fine(self, rows: tuple[tuple[Fraction, ...], ...]) -> bool:
         """Whether a lattice is one that any drawing would have, being within the slack of every shift."""

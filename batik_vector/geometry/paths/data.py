@@ -10,13 +10,14 @@ import numpy as np
 
 from batik_vector.errors import GeometryError
 from batik_vector.fields.fitting import shown
-from batik_vector.geometry.paths.decimals import decimals_in
+from batik_vector.geometry.paths.decimals import decimals_in, placed_decimals
 from batik_vector.geometry.paths.outline import Outline
 from batik_vector.geometry.paths.pen import Command, drawn
 from batik_vector.patterns import NUMBER, numbers_in
 
 _LETTER = re.compile("([MmZzLlHhVvCcSsQqTtAa])")
 _DECIMALS = re.compile(r"[-.,0-9 \t\r\n]*+")
+_WHOLE = re.compile(r"[-.,0-9 \t\r\nMmZzLlHhVvCcSsQqTt]*+")
 _PLAIN = re.compile(r"[-+.,eE0-9 \t\r\n]*+")
 _ARC = re.compile(
     r"[\s,]*+({0})[\s,]*+({0})[\s,]*+({0})[\s,]*+([01])[\s,]*+([01])[\s,]*+({0})[\s,]*+({0})".replace(
@@ -25,6 +26,12 @@ _ARC = re.compile(
 )
 _TAKES = {"M": 2, "L": 2, "H": 1, "V": 1, "C": 6, "S": 4, "Q": 4, "T": 2, "A": 7, "Z": 0}
 _TAKES |= {letter.lower(): takes for letter, takes in _TAKES.items()}
+_NONE = 1 << 40
+"""Stands for none where numbers are divided by what a letter takes."""
+_TAKEN = np.full(128, _NONE, np.intp)
+_TAKEN[[ord(letter) for letter in _TAKES]] = [takes or _NONE for takes in _TAKES.values()]
+_ALONE = np.isin(np.arange(128), list(b"MmZz"))
+_BARE = bytes.maketrans(bytes(range(65, 128)), b" " * 63)
 
 
 def parse_path(text: str) -> Outline:
@@ -33,11 +40,13 @@ def parse_path(text: str) -> Outline:
     Raises:
         ValueError: where the data break off or are none.
     """
-    return drawn(_commands(text))
+    at_once = _at_once(text) if len(text) >= WHOLE else None
+    return drawn(_commands(text) if at_once is None else at_once)
 
 
-LONG = 2000
-"""Characters from which on numbers are read all at once; fewer are sooner read one by one."""
+WHOLE, LONG = 800, 2000
+"""Characters of path data, and of the numbers behind one letter, from which on all are read at once; fewer
+are sooner read one by one."""
 FARTHEST = 1e6
 """Coordinates of a curve at most: floats then tell places apart to a part in 10¹⁰ of them."""
 
@@ -65,6 +74,35 @@ def path_of(text: str, upward: bool = False, centre: tuple[float, float] = (0.0,
         raise GeometryError(f"d = {shown(text)} {words}")
     flip = 1.0 if upward else -1.0
     return outline.moved((1.0, 0.0, 0.0, flip, -centre[0], -flip * centre[1]))
+
+
+def _at_once(text: str) -> Iterator[Command] | None:
+    """Return the commands of path data whose numbers are plain decimals, all read in one go.
+
+    None where something else stands there, or is wrong: then they are read one by one, which knows what.
+    """
+    if not text.isascii() or _WHOLE.fullmatch(text) is None:
+        return None
+    raw = text.encode("ascii")
+    found = placed_decimals(raw.translate(_BARE))
+    if found is None:
+        return None
+    numbers, ends = found
+    characters = np.frombuffer(raw, np.uint8)
+    at = np.flatnonzero(characters >= ord("A"))
+    letters = characters[at]
+    bounds = np.full(len(at) + 1, len(ends))
+    bounds[:-1] = ends.searchsorted(at)
+    counts, takes = bounds[1:] - bounds[:-1], _TAKEN[letters]
+    # A letter that takes none is refused any, and one that takes some is refused none.
+    if bounds[0] or (counts % takes).any() or ((counts > 0) == (takes == _NONE)).any():
+        return None
+    # One letter again and again, as some programs write it, is one command with many numbers.
+    begins = np.ones(len(at), bool)
+    begins[1:] = (letters[1:] != letters[:-1]) | _ALONE[letters[1:]]
+    known, cuts = numbers.tolist(), [*bounds[:-1][begins].tolist(), len(ends)]
+    names = letters[begins].tobytes().decode()
+    return ((name, known[low:high]) for name, low, high in zip(names, cuts[:-1], cuts[1:], strict=True))
 
 
 def _commands(text: str) -> Iterator[Command]:
