@@ -181,7 +181,7 @@ def _layout(kind: str) -> Put:
         place: Tables = data["place"][0]
         if place.get("layout", {}).get("kind") != kind:
             place["layout"] = {"kind": kind, **needs.get(kind, {})}
-        if kind in ("toss", "stripes"):
+        if kind in ("toss", "pack", "stripes"):
             place.pop("at", None)
             place.pop("turn", None)
         layout: Tables = place["layout"]

@@ -24,7 +24,8 @@ from batik_vector.recipe.motif import most_contours
 from batik_vector.recipe.recolouring import in_palette
 from batik_vector.recipe.references import dotted
 from batik_vector.tiling.torus import seams
-from batik_vector.tiling.torus.torus import to_step_grid
+from batik_vector.tiling.torus.torus import Lattice, to_step_grid
+from batik_vector.tiling.welding.sheets import Sheet
 from batik_vector.tiling.welding.stack import assemble
 from batik_vector.units import STEPS_PER_MM, to_steps
 
@@ -57,16 +58,20 @@ def compile_recipe(recipe: Recipe, *, progress: Progress | None = None) -> Artwo
 def _compiled(recipe: Recipe, tell: Progress) -> Artwork:
     inks = {name: spec.named(name) for name, spec in recipe.ink.items()}
     unit = recipe.tiling.unit()
-    sheets = []
+    sheets: list[Sheet] = []
     spent = 0
     before: list[Placed] = []
     for number, placement in enumerate(recipe.place):
-        tell(f"placing {', '.join(placement.motifs)}")
+        tell(f"placing {', '.join(placement.motifs) or 'the ground'}")
         with blame(f"place[{number}]"), _dense(placement, recipe):
             orbit = recipe.tiling.orbit(placement.symmetry, placement.phase, placement.spread)
             placed = place(placement, recipe, unit, inks, recipe.limit - spent, orbit, before)
+            if placement.counterchange:
+                lattice = recipe.tiling.repeating().lattice
+                sheets = _traded(sheets, placed.sheets, lattice, recipe.tolerance)
+            else:
+                sheets = sheets + placed.sheets
         before.append(placed)
-        sheets += placed.sheets
         spent += placed.vertices
     tell("cutting the tile")
     cell = recipe.tiling.cell()
@@ -76,6 +81,13 @@ def _compiled(recipe: Recipe, tell: Progress) -> Artwork:
     if not layers:
         raise RecipeError("nothing is left to draw: every mark is covered or cut away")
     return replace(_blank(recipe, cell), layers=layers, borders=borders, facts=_facts(recipe, before))
+
+
+def _traded(below: list[Sheet], own: list[Sheet], lattice: Lattice, tolerance: float) -> list[Sheet]:
+    # Most recipes have no counterchange.
+    from batik_vector.compiling.counterchange import traded
+
+    return traded(below, own, lattice, tolerance)
 
 
 @contextmanager

@@ -17,7 +17,7 @@ from batik_vector.recipe.figures import Figure, draw, size_of
 from batik_vector.recipe.motif import MOTIFS, Motif, Treatment
 from batik_vector.recipe.motifs.composing import Banded
 from batik_vector.recipe.placement import Placement
-from batik_vector.tiling.layouts import Clear, Stripes, Toss
+from batik_vector.tiling.layouts import Clear, Scattered, Stripes
 from batik_vector.tiling.symmetry.orbits import Orbit
 from batik_vector.tiling.torus import overlay
 from batik_vector.tiling.torus.torus import Lattice
@@ -68,15 +68,15 @@ def lattice_of(unit: Cell, orbit: Orbit) -> Lattice:
     if not orbit.periods:
         return unit.lattice
     if len(orbit.periods) == 1:
-        raise GeometryError("a toss and stripes fill a tile: expected another layout in a border")
+        raise GeometryError("tosses, packs and stripes fill a tile: expected another layout in a border")
     a, b = ((to_steps(x), to_steps(y)) for x, y in orbit.periods)
     return a, b
 
 
 def scattered(
-    placement: Placement, spec: Toss, motifs: Mapping[str, Motif], scale: float, ground: Ground
+    placement: Placement, spec: Scattered, motifs: Mapping[str, Motif], scale: float, ground: Ground
 ) -> Tossed:
-    """Toss the motifs of a placement.
+    """Toss or pack the motifs of a placement.
 
     Args:
         placement: whose gap and inks hold.
@@ -166,7 +166,7 @@ def _body(
     body: shapely.Geometry = shapely.union_all(np.concatenate(shapes)) if shapes else shapely.Polygon()
     # What is drawn may have no body either: an open curve that is filled, say.
     if shapely.is_empty(body):
-        raise GeometryError("the motif draws nothing that could be tossed")
+        raise GeometryError("the motif draws nothing that could be tossed or packed")
     return body
 
 
@@ -203,7 +203,7 @@ def _overreach(
     return farthest
 
 
-def _taken(spec: Toss, placement: Placement, ground: Ground) -> Field:
+def _taken(spec: Scattered, placement: Placement, ground: Ground) -> Field:
     """Return what marks keep clear of: enough larger that the placement's own gap does not cut it."""
     from batik_vector.tiling.torus.torus import as_steps
     from batik_vector.tiling.tossing.marks import Field

@@ -25,7 +25,7 @@ from batik_vector.recipe.figures import Figure, draw, size_of
 from batik_vector.recipe.model import Recipe
 from batik_vector.recipe.motif import Motif, Treatment
 from batik_vector.recipe.placement import Placement
-from batik_vector.tiling.layouts import Bend, Share, Stripes, Toss
+from batik_vector.tiling.layouts import Bend, FreeGround, Scattered, Share, Stripes
 from batik_vector.tiling.symmetry.orbits import TRIVIAL, Orbit
 from batik_vector.tiling.welding.congruent import vertex_count
 from batik_vector.tiling.welding.sheets import Sheet
@@ -86,7 +86,9 @@ def place(
     Raises:
         GeometryError, RecipeError: in the words of what cannot be drawn.
     """
-    if isinstance(placement.layout, Toss | Stripes):
+    if isinstance(placement.layout, FreeGround):
+        return _free_ground(placement, recipe, inks, limit, before)
+    if isinstance(placement.layout, Scattered | Stripes):
         return _ground(placement, recipe, unit, inks, limit, orbit, before)
     if len(placement.motifs) > 1:
         return _dealt(placement, recipe, unit, inks, limit, orbit)
@@ -253,7 +255,7 @@ def _ground(
         tosses = [each.tossed for each in before if each.tossed]
         sheets = [sheet for each in before for sheet in each.sheets]
         ground = Ground(lattice_of(unit, orbit), orbit, inks, recipe.tolerance, recipe.seed, tosses, sheets)
-        if isinstance(placement.layout, Toss):
+        if isinstance(placement.layout, Scattered):
             tossed = scattered(placement, placement.layout, motifs, scale, ground)
             for (name, motif), copies in zip(motifs.items(), tossed.copies, strict=True):
                 if copies:
@@ -275,6 +277,19 @@ def _ground(
                 ]
                 drawn[name] = _multiplied(Laid(figures, ONE), orbit, finest)
     return replace(_placed(drawn, placement, inks, recipe.tolerance, tossed), fitted=fitted)
+
+
+def _free_ground(
+    placement: Placement, recipe: Recipe, inks: Mapping[str, Ink], limit: int, before: Sequence[Placed]
+) -> Placed:
+    """Do the work of :func:`place` for marks that fill what is free of the repeat."""
+    # Most recipes have none.
+    from batik_vector.compiling.free_ground import Given, free_ground
+
+    lattice = recipe.tiling.repeating().lattice
+    given = Given(lattice, inks, recipe.tolerance, recipe.seed, limit)
+    sheet = free_ground(placement, [sheet for each in before for sheet in each.sheets], given)
+    return Placed([sheet], vertex_count(sheet.areas))
 
 
 def _multiplied(laid: Laid, orbit: Orbit, crumb: float) -> Laid:

@@ -61,6 +61,9 @@ PER_CELL_CORNER = 30.0
 PER_DART = 15.0
 """What a dart of a toss costs, and each of its images."""
 
+PER_PACKED = 4.0
+"""What a place costs that is tried for a mark of a packing, and each of its images."""
+
 BATCH = 200_000
 """Vertices of the overlays that are done at one go; what they have cost is counted after each."""
 
@@ -171,7 +174,10 @@ def spend_on_cuts(marks: Geometries, away: Geometries, left: Geometries) -> None
     """Take up the work of cutting marks that is done, each by what was taken away from it."""
     before, cutting, after = (float(shapely.get_num_coordinates(each).sum()) for each in (marks, away, left))
     spend(cutting, per_vertex=PER_CUTTER_VERTEX)
-    spend(before, max(after - before, 0.0))
+    more = max(after - before, 0.0)
+    # Most vertices of many holes are those of what was cut out, and no crossings.
+    crossings = min(more, _come_about(np.concatenate([marks, away]), left, 0)) if more > SMALL else more
+    spend(before + more - crossings, crossings)
 
 
 def spend_on_pairs(count: int) -> None:
@@ -209,12 +215,12 @@ def batches(sizes: NDArray[np.int64], most: int = BATCH) -> Iterator[slice]:
         first, before = end, int(total[end - 1])
 
 
-def _come_about(given: Geometries, made: Geometries) -> int:
+def _come_about(given: Geometries, made: Geometries, least: int | None = None) -> int:
     """Return about how many vertices of results were none before: what is given lies on whole steps mostly,
-    and crossings do not.
+    and crossings do not. There are no fewer than ``least``, by how many they have become more if left out.
     """
     more = int(shapely.get_num_coordinates(made).sum()) - int(shapely.get_num_coordinates(given).sum())
-    return max(_between_steps(made) - _between_steps(given), more, 0)
+    return max(_between_steps(made) - _between_steps(given), more if least is None else least, 0)
 
 
 def _between_steps(shapes: Geometries) -> int:

@@ -9,6 +9,7 @@ from typing import Annotated, TypeAlias
 from batik_vector.errors import GeometryError, blame
 from batik_vector.fields import Between, Length, Says, Text, check
 from batik_vector.recipe.placement import Placement
+from batik_vector.tiling.layouts import FreeGround
 from batik_vector.tiling.symmetry.friezes import FRIEZE_NAMES, frieze
 from batik_vector.units import to_steps
 from batik_vector.values import frozen
@@ -180,7 +181,12 @@ def _refuse_wallpaper(placement: Placement) -> None:
                 f'"{placement.symmetry}": a border repeats by its frieze; expected "p1", '
                 "which leaves the frieze's turns and mirrors out, or no symmetry"
             )
-    keys = {"phase": placement.phase != (0.0, 0.0), "region": placement.region is not None}
+    keys = {
+        "phase": placement.phase != (0.0, 0.0),
+        "region": placement.region is not None,
+        "counterchange": placement.counterchange,
+        "layout": isinstance(placement.layout, FreeGround),
+    }
     for key, given in keys.items():
         if given:
             with blame(key):

@@ -20,6 +20,7 @@ from batik_vector.recipe.outputs import AnyOutput, OutputSpec
 from batik_vector.recipe.placement import Placement
 from batik_vector.recipe.references import Path, dotted, places, unknown_references
 from batik_vector.tiling.cloth.spec import YardageSpec
+from batik_vector.tiling.layouts import FreeGround
 from batik_vector.tiling.symmetry.repeats import Cut, TileSpec
 from batik_vector.values import frozen
 
@@ -247,6 +248,8 @@ class Recipe:
         return [Fault(words, dotted((*path, "ink"))) for path in open_places + rails]
 
     def _needs_ink(self, placement: Placement) -> bool:
+        if isinstance(placement.layout, FreeGround):
+            return not placement.ink and not (placement.fill_with and placement.fill_with.ink)
         return not placement.ink and any(
             not part.ink and not (part.treatment == Treatment.CUT and _is_bare(part.fill_with))
             for name in placement.motifs

@@ -9,7 +9,7 @@ from batik_vector.errors import GeometryError
 from batik_vector.fields import Between, Length, Names, Says, Text, check
 from batik_vector.recipe.fills import AnyFill
 from batik_vector.recipe.references import quoted
-from batik_vector.tiling.layouts import AnyLayout, Bend, DoubleSquare, Single, Stripes, Toss
+from batik_vector.tiling.layouts import AnyLayout, Bend, DoubleSquare, FreeGround, Scattered, Single, Stripes
 from batik_vector.tiling.symmetry.groups import GROUP_PATTERN, group_name
 from batik_vector.tiling.symmetry.spread import Spread
 from batik_vector.values import frozen
@@ -27,8 +27,12 @@ class Placement:
     """A motif set on the cloth by a layout, at a size and a place."""
 
     motif: Annotated[
-        Names, Says("name of the motif; a toss, a ring, a lattice and the paper's layouts may have several")
-    ]
+        Names,
+        Says(
+            "name of the motif; tosses, packs, rings, lattices and the paper's layouts may have several, "
+            "grounds none"
+        ),
+    ] = ""
     layout: Annotated[AnyLayout, Says("how copies are set out")] = field(default_factory=Single)
     width: Annotated[
         Side | None,
@@ -62,9 +66,17 @@ class Placement:
         Annotated[Length, Between(0, 1000)] | None,
         Says("ground kept bare round the whole motif by cutting what is placed beneath"),
     ] = None
+    counterchange: Annotated[
+        bool, Says("trade inks with what is drawn beneath in its ink: bare over it, inked beside it")
+    ] = False
 
     def __post_init__(self) -> None:
         check(self)
+        if isinstance(self.layout, FreeGround):
+            self._refuse_beside_ground()
+            return
+        if self.motif == "":
+            raise GeometryError("motif is missing: expected the name of a motif")
         if self.width is not None and self.scale is not None:
             raise GeometryError("width and scale are both given: expected one of them")
         if self.width is None and self.scale is None:
@@ -77,24 +89,55 @@ class Placement:
         """Raise where the layout cannot do what other keys ask for."""
         if len(self.motifs) != 1:
             self._refuse_several()
-        if isinstance(self.layout, Toss) and len(set(self.motifs)) < len(self.motifs):
+        if self.counterchange and self.gap is not None:
+            raise GeometryError(
+                f"gap = {self.gap:g}: in a counterchange figure and ground meet at an edge, expected no gap"
+            )
+        if isinstance(self.layout, Scattered) and len(set(self.motifs)) < len(self.motifs):
             raise GeometryError(
                 f"motif = {self._listed()}: a motif is named twice, expected weights in the layout instead"
             )
-        if isinstance(self.layout, Toss) and self.at is not None:
+        if isinstance(self.layout, Scattered) and self.at is not None:
             x, y = self.at
-            raise GeometryError(f"at = [{x:g}, {y:g}]: a toss fills the whole repeat, expected no place")
-        if isinstance(self.layout, Toss | Stripes) and self.turn:
-            what = "turn of the layout" if isinstance(self.layout, Toss) else "winding of the layout"
+            raise GeometryError(
+                f"at = [{x:g}, {y:g}]: a {self.layout.kind} fills the whole repeat, expected no place"
+            )
+        if isinstance(self.layout, Scattered | Stripes) and self.turn:
+            what = "turn of the layout" if isinstance(self.layout, Scattered) else "winding of the layout"
             raise GeometryError(f"turn = {self.turn:g}: expected the {what} instead")
+
+    def _refuse_beside_ground(self) -> None:
+        """Raise where a ground has what only motifs have, or nothing to be filled with."""
+        if self.fill_with is None:
+            raise GeometryError(
+                "fill_with is missing: a ground is filled with marks, expected them, such as "
+                'fill_with = { kind = "cecek" }'
+            )
+        for key in ("motif", "width", "scale", "at", "turn", "gap", "symmetry", "phase", "region"):
+            value = getattr(self, key)
+            if value not in (None, "", 0.0, (0.0, 0.0), ()):
+                shown = (
+                    quoted(value)
+                    if isinstance(value, str)
+                    else f"{value:g}"
+                    if isinstance(value, float)
+                    else value
+                )
+                raise GeometryError(f"{key} = {shown}: a ground is filled with marks, expected no {key}")
+        if self.counterchange:
+            raise GeometryError("counterchange = true: a ground lies over nothing, expected none")
+        follow = str(getattr(self.fill_with, "follow", ""))
+        if follow in ("centre", "axis") or self.fill_with.kind == "veins":
+            told = f'follow = "{follow}"' if self.fill_with.kind != "veins" else 'kind = "veins"'
+            raise GeometryError(f"fill_with.{told}: a ground has no centre and no axis, expected another one")
 
     def _refuse_several(self) -> None:
         """Raise where several motifs, or none, are more than the layout or the size can deal with."""
-        if isinstance(self.layout, Toss) and self.motifs:
+        if isinstance(self.layout, Scattered) and self.motifs:
             return
         if not (self.motifs and self.layout.deals):
             raise GeometryError(
-                f"motif = {self._listed()}: only a toss mixes several, and only rings, lattices and "
+                f"motif = {self._listed()}: only a toss or a pack mixes several, and only rings, lattices and "
                 "the paper's layouts deal their places out in turn, expected one"
             )
         if self.scale is None:
@@ -116,9 +159,11 @@ class Placement:
     @property
     def spread(self) -> Spread | None:
         """What its symmetry multiplies; tossed marks stay whole, whatever the repeat does with others."""
-        return self.region or (Spread.FREE if isinstance(self.layout, Toss) else None)
+        return self.region or (Spread.FREE if isinstance(self.layout, Scattered) else None)
 
     @property
     def motifs(self) -> tuple[str, ...]:
         """The names of its motifs."""
-        return (self.motif,) if isinstance(self.motif, str) else self.motif
+        if isinstance(self.motif, str):
+            return (self.motif,) if self.motif else ()
+        return self.motif

@@ -114,6 +114,6 @@ def unknown_references(recipe: Any) -> list[tuple[Path, Fault]]:
             written = child(place, key)
             several = isinstance(written, list | tuple)
             for name in written if several else [written]:
-                if isinstance(name, str) and (name or key == "motif"):
+                if isinstance(name, str) and (name or (key == "motif" and several)):
                     look((*place_path, key), name, known, key)
     return found

@@ -24,7 +24,7 @@ from batik_vector.studio.offers import free_name
 from batik_vector.studio.text.spelling import spelled_key
 from batik_vector.units import parse_length
 
-FILLING = ("toss", "stripes")
+FILLING = ("toss", "pack", "stripes")
 """Layouts that fill the repeat, which no placement turns."""
 SCALED = ("tile", "place", "motif", "ink", "border")
 """What of a design grows with it; the cloth's size and the tolerance stay."""

@@ -25,7 +25,7 @@ from batik_vector.recipe.motif import Motif
 from batik_vector.recipe.placement import Placement
 from batik_vector.recipe.references import Path, dotted
 from batik_vector.studio.drafts import Draft, Where, parsed
-from batik_vector.tiling.layouts import Bend, Lattice, Layout, Stripes, Toss
+from batik_vector.tiling.layouts import Bend, Lattice, Layout, Scattered, Stripes
 
 MOST_SPOTS = 200
 """Copies that a mirrored placement may be written out as."""
@@ -103,7 +103,7 @@ def _layout(
     x for that comes second.
     """
     layout = placement.layout
-    if isinstance(layout, Toss | Stripes):
+    if isinstance(layout, Scattered | Stripes):
         raise RecipeError([Fault("fills the repeat, and has no mirror image that a recipe can say", key)])
     if not layout.spreads and placement.scale is None:
         words = "a lattice is mirrored where its motif has a scale: expected scale instead of width"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,9 @@ from batik_vector.certificate import certify
 from batik_vector.certificate.expectations import Asked
 from batik_vector.compiling.compiler import compile_recipe
 from batik_vector.errors import BatikError
+from batik_vector.geometry import work
 from batik_vector.recipe.loading import read_recipe
+from tests.thorough import examples, long
 
 BASE = """
 [cloth]
@@ -144,6 +147,23 @@ REFUSED = {
 def test_what_cannot_be_is_told_with_key_and_value(petal: str, words: str) -> None:
     with pytest.raises(BatikError, match=words):
         made(petal, place="width = 300" if "0.05" in petal else "")
+
+
+def test_many_bare_dots_cost_what_they_take(monkeypatch: pytest.MonkeyPatch) -> None:
+    # Counted as so many crossings, or united two by two, 9,000 dots were work for three millions.
+    monkeypatch.setattr(work, "LIMIT", 1_000_000.0)
+    dots = DOTS + ", spacing = 0.3, width = 0.1, margin = 0.2 }"
+    many = made(dots.replace("spacing = 0.3", "spacing = 0.24"))
+    assert len(holes(ink(many, "cotton"))) > 8000
+
+
+@long
+@pytest.mark.skipif(examples(0, 1) == 0, reason="takes ten seconds")
+def test_a_hundred_thousand_bare_dots_compile() -> None:
+    begin = time.process_time()
+    many = made(DOTS + ", spacing = 0.068, width = 0.03, margin = 0.05 }")
+    assert time.process_time() - begin < 60
+    assert len(holes(ink(many, "cotton"))) > 100_000
 
 
 def test_a_seed_tosses_dots_otherwise() -> None:

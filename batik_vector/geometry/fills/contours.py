@@ -10,6 +10,7 @@ import shapely
 
 from batik_vector.geometry.fills.bodies import bodies, strokes
 from batik_vector.geometry.fills.insets import Parts, inset, levels, opened, rings_of, stations
+from batik_vector.geometry.fills.periodic import Period
 from batik_vector.geometry.fills.thinning import by_length, clear, thinned
 from batik_vector.geometry.sampling import Array, Geometries, Indices
 
@@ -24,7 +25,13 @@ GAP = 0.3
 
 
 def along(
-    parts: Parts, centres: Array, turns: int, reach: float, spacing: float, most: int = 0
+    parts: Parts,
+    centres: Array,
+    turns: int,
+    reach: float,
+    spacing: float,
+    most: int = 0,
+    period: Period | None = None,
 ) -> tuple[Array, Indices]:
     """Return places along the contour of regions, in rows from the edge inwards, and the region of each.
 
@@ -34,12 +41,15 @@ def along(
         reach: from the edge to the first row.
         spacing: from row to row, and about from place to place: each row shares its length out evenly.
         most: rows at most; 0 for as many as there is room for.
+        period: of a ground.
     """
     points, region, rank, ranks = [np.empty((0, 2))], [np.empty(0, np.intp)], [np.empty(0, np.intp)], 0
     for number, within in levels(parts, reach, itertools.repeat(spacing)):
         if most and number >= most:
             break
-        found = rings_of(within, centres, turns)
+        found = rings_of(within, centres, turns, period, reach + number * spacing)
+        if not len(found.part):
+            continue
         at = stations(found, spacing)
         points.append(at.points)
         region.append(within.region[found.part[at.ring]])
@@ -51,7 +61,14 @@ def along(
 
 
 def bands(
-    parts: Parts, margin: float, spacing: float, width: float, taper: float, most: int, tolerance: float
+    parts: Parts,
+    margin: float,
+    spacing: float,
+    width: float,
+    taper: float,
+    most: int,
+    tolerance: float,
+    period: Period | None = None,
 ) -> tuple[Geometries, Indices]:
     """Return bands along the contour, each within the one before, and the region of each.
 
@@ -66,15 +83,20 @@ def bands(
         taper: share of a band's width and spacing that the next one has.
         most: bands at most; 0 for as many as there is room for.
         tolerance: of their outlines.
+        period: of a ground.
     """
     steps = (spacing * taper**k * (1 + taper) / 2 for k in itertools.count())
     marks, region = [np.empty(0, dtype=object)], [np.empty(0, np.intp)]
-    for number, within in levels(parts, margin + width / 2, steps):
+    reach = margin + width / 2
+    for number, within in levels(parts, reach, steps):
         narrow = taper**number
         if (most and number >= most) or width * narrow < 4 * tolerance:
             break
         room = opened(within, spacing * narrow / 2)
         rings, of = shapely.get_rings(room.shapes, return_index=True)
+        if period is not None:
+            own = period.rings(rings, reach + number * spacing)
+            rings, of = rings[own], of[own]
         kept = clear(rings, room.region[of], (spacing + width) / 2 * narrow, by_length(rings))
         marks.append(bodies(rings[kept], width * narrow, tolerance))
         region.append(room.region[of[kept]])
@@ -90,6 +112,7 @@ def fringe(
     width: float,
     length: float,
     tolerance: float,
+    period: Period | None = None,
 ) -> tuple[Geometries, Indices]:
     """Return strokes (*sawut*) that run from the edge inwards, square to it, and the region of each.
 
@@ -104,11 +127,14 @@ def fringe(
         width: of a stroke.
         length: of a stroke, at most.
         tolerance: of their outlines.
+        period: of a ground.
     """
     within = inset(parts, margin + width / 2)
     if not len(within.shapes):
         return within
-    found = rings_of(within, centres, turns)
+    found = rings_of(within, centres, turns, period, margin + width / 2)
+    if not len(found.part):
+        return within.shapes[:0], within.region[:0]
     at = stations(found, spacing)
     bare = width + GAP * max(spacing - width, 0.0)
     reach = np.minimum(length - width, _until_close(at.points, at.normals, at.ring, bare))

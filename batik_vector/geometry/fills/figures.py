@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from batik_vector.geometry.fills.bodies import bodies, chords, stamped
 from batik_vector.geometry.fills.insets import Parts, inset
+from batik_vector.geometry.fills.midribs import axes
 from batik_vector.geometry.fills.rows import lattice, placed
 from batik_vector.geometry.fills.thinning import by_length, clear
 from batik_vector.geometry.maps.affine import Affine
@@ -202,7 +203,7 @@ def veins(
     within = inset(parts, margin + width / 2)
     if not len(within.shapes):
         return within.shapes, within.region
-    root, ahead, length, half = _axes(parts.shapes)
+    root, ahead, length, half = axes(parts.shapes)
     lean = 1.4 / math.tan(math.radians(angle))
     # The first leave the midrib's line before it begins, so that the base is filled too.
     before = np.ceil(half * lean / spacing).astype(np.intp)
@@ -228,22 +229,6 @@ def veins(
 
 def _left(ahead: Array) -> Array:
     return np.column_stack([-ahead[:, 1], ahead[:, 0]])
-
-
-def _axes(regions: Geometries) -> tuple[Array, Array, Array, Array]:
-    """Return where midribs begin, their directions and lengths, and how far regions reach aside."""
-    boxes = shapely.get_coordinates(shapely.minimum_rotated_rectangle(regions)).reshape(-1, 5, 2)
-    one, two = boxes[:, 1] - boxes[:, 0], boxes[:, 2] - boxes[:, 1]
-    sides: Array = np.hypot(*np.stack([one, two], axis=-1).swapaxes(0, 1))
-    longer = sides[:, 0] >= sides[:, 1]
-    along = np.where(longer[:, None], one, two)
-    length, breadth = sides.max(axis=1), sides.min(axis=1)
-    ahead: Array = along / length[:, None]
-    # A motif points along +x, or up.
-    back = (ahead[:, 0] < -1e-9) | ((np.abs(ahead[:, 0]) <= 1e-9) & (ahead[:, 1] < 0))
-    ahead[back] *= -1
-    middle: Array = boxes[:, :4].mean(axis=1)
-    return middle - ahead * length[:, None] / 2, ahead, length, breadth
 
 
 def _joined(

@@ -9,6 +9,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from batik_vector.geometry.fills.periodic import Period
 from batik_vector.geometry.regions import oriented
 from batik_vector.geometry.sampling import Array, Geometries, Indices
 
@@ -95,7 +96,9 @@ class Rings(NamedTuple):
     offset: Array
 
 
-def rings_of(parts: Parts, centres: Array, turns: int = 1) -> Rings:
+def rings_of(
+    parts: Parts, centres: Array, turns: int = 1, period: Period | None = None, reach: float = 0.0
+) -> Rings:
     """Return the outlines of parts, with the part to the left, each begun where an axis of symmetry may lie.
 
     That is where it reaches farthest from the motif's centre, or along +x if it goes round that: both sides
@@ -105,26 +108,33 @@ def rings_of(parts: Parts, centres: Array, turns: int = 1) -> Rings:
         parts: with edges.
         centres: of the motif, for each region, shape (n, 2).
         turns: order of the motif's turns that must leave its marks as they are.
+        period: of a ground: then each ring is taken once, and is its own centre.
+        reach: how far the parts keep from the edges of a ground.
     """
     rings, part = shapely.get_rings(parts.shapes, return_index=True)
+    if period is not None:
+        own = period.rings(rings, reach)
+        rings, part = rings[own], part[own]
     points, of = shapely.get_coordinates(rings, return_index=True)
     first = np.searchsorted(of, np.arange(len(rings)))
     centre = centres[parts.region[part]]
     discs = shapely.polygons(rings)
+    if period is not None:
+        centre = shapely.get_coordinates(shapely.centroid(discs))
     off = np.hypot(*(shapely.get_coordinates(shapely.centroid(discs)) - centre).T)
     about = off < MIDDLE * np.sqrt(shapely.area(discs))
-    far = np.hypot(*(points - centre[of]).T)
-    reach = np.where(about[of], points[:, 0], far)
+    far: Array = np.hypot(*(points - centre[of]).T)
+    outwards = np.where(about[of], points[:, 0], far)
     count = np.diff(np.append(first, len(points))) - 1
-    order = np.lexsort((np.arange(len(points)), -reach, of))
+    order = np.lexsort((np.arange(len(points)), -outwards, of))
     begin = order[first] - first
     place = np.arange(len(points)) - first[of]
     turned = first[of] + (place + begin[of]) % count[of]
-    points, reach, last = points[turned], reach[turned], first + count
+    points, outwards, last = points[turned], outwards[turned], first + count
     # An axis may cross an edge: then its two ends reach equally far.
     ahead, behind = (points[first + 1] - points[first], points[last - 1] - points[first])
-    before = np.where(reach[first] - reach[last - 1] < LEVEL, -np.hypot(*behind.T) / 2, 0.0)
-    offset = np.where(reach[first] - reach[first + 1] < LEVEL, np.hypot(*ahead.T) / 2, before)
+    before = np.where(outwards[first] - outwards[last - 1] < LEVEL, -np.hypot(*behind.T) / 2, 0.0)
+    offset = np.where(outwards[first] - outwards[first + 1] < LEVEL, np.hypot(*ahead.T) / 2, before)
     return Rings(points, first, part, np.where(about, turns, 1), offset)
 
 

@@ -6,6 +6,7 @@ import numpy as np
 import shapely
 
 from batik_vector.geometry.fills.insets import Parts
+from batik_vector.geometry.fills.periodic import ASIDE, Period
 from batik_vector.geometry.fills.thinning import thinned
 from batik_vector.geometry.sampling import Array, Indices
 
@@ -13,11 +14,14 @@ ROUNDS, TRIES = 6, 2.0
 """How often places are tried, and how many for each square of the distance."""
 
 
-def scattered(parts: Parts, spacing: float, seed: int) -> tuple[Array, Indices]:
+def scattered(parts: Parts, spacing: float, seed: int, period: Period | None = None) -> tuple[Array, Indices]:
     """Return places within parts, no two of a region nearer than the spacing, and the part of each.
 
-    Dart throwing in rounds: of those tried in one round the earlier has its way.
+    Dart throwing in rounds: of those tried in one round the earlier has its way. In a ground, one period is
+    thrown at.
     """
+    if period is not None:
+        return _scattered_round(parts, spacing, seed, period)
     rng = np.random.default_rng(seed)
     shapely.prepare(parts.shapes)
     points, part = np.empty((0, 2)), np.empty(0, np.intp)
@@ -32,6 +36,25 @@ def scattered(parts: Parts, spacing: float, seed: int) -> tuple[Array, Indices]:
         points, part = np.concatenate([points, tried[inside]]), np.concatenate([part, mine[inside]])
         kept = thinned(points, parts.region[part], spacing)
         points, part = points[kept], part[kept]
+    return points, part
+
+
+def _scattered_round(parts: Parts, spacing: float, seed: int, period: Period) -> tuple[Array, Indices]:
+    """Return places within parts and the window of a period, no two nearer than the spacing over its seam."""
+    rng = np.random.default_rng(seed)
+    tree = shapely.STRtree(parts.shapes)
+    points, part = np.empty((0, 2)), np.empty(0, np.intp)
+    count = int(np.ceil(TRIES * np.prod(period.window) / spacing**2))
+    none = np.zeros(count, np.intp)
+    for _ in range(2 * ROUNDS):
+        tried = ASIDE + rng.random((count, 2)) * period.window
+        free = ~np.isin(_cells(tried, none, spacing), _cells(points, none[:1], spacing))
+        tried = tried[free]
+        inside, of = tree.query(shapely.points(tried), predicate="within")
+        points, part = np.concatenate([points, tried[inside]]), np.concatenate([part, of])
+        if len(points):
+            kept = period.apart(points, spacing)
+            points, part = points[kept], part[kept]
     return points, part
 
 

@@ -12,6 +12,7 @@ from batik_vector.values import frozen
 # How marks are laid is imported once a recipe has a fill.
 if TYPE_CHECKING:
     from batik_vector.geometry.fills.insets import Parts
+    from batik_vector.geometry.fills.periodic import Period
     from batik_vector.geometry.sampling import Array, Geometries, Indices
 
 MOST_MARKS = 400_000
@@ -22,7 +23,8 @@ class Room(NamedTuple):
     """What is to be filled, in mm, each region in the plane of its element.
 
     ``centres`` is where the motif's centre lies in each of them, shape (n, 2); ``turns`` the order of the
-    turns about it that the cloth asks of the motif.
+    turns about it that the cloth asks of the motif. Of a ground the ``period`` is told: then marks that do
+    not lie in rows at an angle are laid once in each.
     """
 
     parts: Parts
@@ -30,6 +32,7 @@ class Room(NamedTuple):
     turns: int
     tolerance: float
     seed: int
+    period: Period | None = None
 
 
 Marks: TypeAlias = "tuple[Geometries, Indices]"
@@ -42,7 +45,7 @@ Places: TypeAlias = "tuple[Array, Indices]"
 
 @frozen(kw_only=True)
 class Fill:
-    """Marks within an element: they keep a margin to its edge and what lies over it, and break at holes."""
+    """Marks within an element or a ground: they keep a margin to its edge and what lies over it."""
 
     kind: ClassVar[str] = ""
     least: ClassVar[float] = 1.0
@@ -76,6 +79,18 @@ class Fill:
                 f"spacing = {self.spacing:g}: expected more than {least:g} mm with width = {self.width:g}, "
                 "or the marks would touch"
             )
+
+    def basis(self) -> tuple[tuple[float, float], tuple[float, float]] | None:
+        """Return two translations, before they are turned by ``angle``, that bring its rows onto themselves.
+
+        None where the marks lie in no rows at an angle.
+        """
+        return None
+
+    @property
+    def bare(self) -> float:
+        """How far marks that ran into one another keep apart in a ground."""
+        return 0.3 * (self.spacing - self.width)
 
     def lay(self, room: Room) -> Marks:
         """Return the marks of all regions.

@@ -3,12 +3,23 @@
 from __future__ import annotations
 
 import enum
-from typing import Annotated
+import math
+from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 from batik_vector.errors import GeometryError
 from batik_vector.fields import Between, Length, Says, Useful
 from batik_vector.recipe.fills.base import Angled, Fill, Marks, Room
 from batik_vector.values import frozen
+
+if TYPE_CHECKING:
+    from batik_vector.geometry.fills.insets import Parts
+
+Basis: TypeAlias = tuple[tuple[float, float], tuple[float, float]] | None
+"""Two translations, or None: see :meth:`~batik_vector.recipe.fills.base.Fill.basis`."""
+
+
+def _square(side: float) -> Basis:
+    return (side, 0.0), (0.0, side)
 
 
 class Follow(enum.StrEnum):
@@ -20,6 +31,8 @@ class Follow(enum.StrEnum):
     """Rows along the edge, from the edge inwards."""
     CENTRE = "centre"
     """Circles about the motif's centre."""
+    AXIS = "axis"
+    """Rows at an angle to the midrib of each region, bent with it: along a leaf, whichever way it lies."""
 
 
 @frozen(kw_only=True)
@@ -32,6 +45,10 @@ class Galaran(Angled):
 
     follow: Annotated[Follow, Says("what its lines follow")] = Follow.ANGLE
 
+    def basis(self) -> Basis:
+        """Its rows, of which each may be moved along itself."""
+        return _square(self.spacing) if self.follow == Follow.ANGLE else None
+
     def _laid(self, room: Room) -> Marks:
         from batik_vector.geometry.fills import figures
         from batik_vector.geometry.fills.bodies import strokes
@@ -40,7 +57,8 @@ class Galaran(Angled):
         from batik_vector.geometry.fills.rows import parted, radii, runs, segments
 
         if self.follow == Follow.CONTOUR:
-            return bands(room.parts, self.margin, self.spacing, self.width, 1.0, 0, room.tolerance)
+            told = self.margin, self.spacing, self.width, 1.0, 0, room.tolerance
+            return bands(room.parts, *told, room.period)
         within, short = inset(room.parts, self.margin + self.width / 2), self.spacing / 2
         if self.follow == Follow.CENTRE:
             ring, centre, part = radii(within, room.centres, self.spacing)
@@ -48,10 +66,24 @@ class Galaran(Angled):
             radius = ring[some] * self.spacing
             return figures.arcs(within, radius, centre[some], part[some], self.width, short, room.tolerance)
         bare = self.width + 0.4 * (self.spacing - self.width)
+        if self.follow == Follow.AXIS:
+            return self._along_midribs(room, within, bare)
         found = parted(runs(within, self.angle, self.spacing), within.region, bare)
         found = found.taken(found.end - found.begin >= short)
         begin, end = segments(found, self.angle, self.spacing)
         return strokes(begin, end, self.width, room.tolerance), within.region[found.part]
+
+    def _along_midribs(self, room: Room, within: Parts, bare: float) -> Marks:
+        from batik_vector.geometry.fills.bodies import bodies
+        from batik_vector.geometry.fills.midribs import bent_lines, midribs, straightened
+        from batik_vector.geometry.fills.rows import parted, runs, segments
+
+        ribs = midribs(room.parts.shapes)
+        straight = straightened(within, ribs, self.spacing / 4)
+        found = parted(runs(straight, self.angle, self.spacing), within.region, bare)
+        found = found.taken(found.end - found.begin >= self.spacing / 2)
+        lines = bent_lines(found, *segments(found, self.angle, self.spacing), within, ribs)
+        return bodies(lines, self.width, room.tolerance), within.region[found.part]
 
 
 @frozen(kw_only=True)
@@ -64,6 +96,11 @@ class Hatching(Angled):
     whole = False
 
     between: Annotated[float, Between(20, 160), Says("degrees from the first direction to the second")] = 90.0
+
+    def basis(self) -> Basis:
+        """The sides of a mesh of the net."""
+        side, turn = self.spacing / math.sin(math.radians(self.between)), math.radians(self.between)
+        return (side, 0.0), (side * math.cos(turn), side * math.sin(turn))
 
     def _laid(self, room: Room) -> Marks:
         from batik_vector.geometry.fills.bodies import net, strokes
@@ -96,7 +133,8 @@ class Contours(Fill):
     def _laid(self, room: Room) -> Marks:
         from batik_vector.geometry.fills.contours import bands
 
-        return bands(room.parts, self.margin, self.spacing, self.width, self.taper, self.rows, room.tolerance)
+        told = self.margin, self.spacing, self.width, self.taper, self.rows, room.tolerance
+        return bands(room.parts, *told, room.period)
 
 
 @frozen(kw_only=True)
@@ -132,6 +170,7 @@ class Sawut(Fill):
             self.width,
             self.length,
             room.tolerance,
+            room.period,
         )
 
 
@@ -153,6 +192,10 @@ class Sisik(Angled):
         Between(-360, 360),
         Says("degrees of its rows; at -90 its scales lie towards the tip, along +x"),
     ] = -90.0
+
+    def basis(self) -> Basis:
+        """Every other row is moved by half a scale."""
+        return (self.spacing, 0.0), (self.spacing / 2, self.spacing / 2)
 
     def _laid(self, room: Room) -> Marks:
         from batik_vector.geometry.fills.figures import scales

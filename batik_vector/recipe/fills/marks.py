@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import enum
 import math
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from batik_vector.fields import Between, Length, Says, Useful
 from batik_vector.recipe.fills.base import Angled, Fill, Marks, Places, Room
 from batik_vector.values import frozen
+
+if TYPE_CHECKING:
+    from batik_vector.geometry.fills.insets import Parts
+    from batik_vector.geometry.sampling import Array, Indices
 
 
 class Rows(enum.StrEnum):
@@ -20,6 +24,8 @@ class Rows(enum.StrEnum):
     """Rows along the edge, from the edge inwards."""
     CENTRE = "centre"
     """Circles about the motif's centre."""
+    AXIS = "axis"
+    """Rows at an angle to the midrib of each region, bent with it: along a leaf, whichever way it lies."""
     SCATTER = "scatter"
     """No rows: tossed, none nearer to another than the spacing (Poisson discs)."""
 
@@ -36,6 +42,15 @@ class Cecek(Angled):
     rows: Annotated[
         int, Between(0, 1000), Says('rows from the edge inwards, with follow = "contour"; 0 for all')
     ] = 0
+
+    def basis(self) -> tuple[tuple[float, float], tuple[float, float]] | None:
+        """Each has its six neighbours at the spacing."""
+        return _hexagon(self.spacing) if self.follow == Rows.ANGLE else None
+
+    @property
+    def bare(self) -> float:
+        """From middle to middle."""
+        return 0.96 * self.spacing
 
     def _laid(self, room: Room) -> Marks:
         from batik_vector.geometry.fills.bodies import circle, stamped
@@ -57,6 +72,15 @@ class CacahGori(Angled):
     ] = 3.0
     follow: Annotated[Rows, Says("what its rows follow")] = Rows.ANGLE
 
+    def basis(self) -> tuple[tuple[float, float], tuple[float, float]] | None:
+        """Each has its six neighbours at the spacing."""
+        return _hexagon(self.spacing) if self.follow == Rows.ANGLE else None
+
+    @property
+    def bare(self) -> float:
+        """From middle to middle."""
+        return 0.96 * self.spacing
+
     def _laid(self, room: Room) -> Marks:
         import numpy as np
 
@@ -66,7 +90,10 @@ class CacahGori(Angled):
         shape = cross(self.spacing, self.width, room.tolerance)
         reach = max(ARM * self.spacing, self.width)
         places, region = _places(self, self.follow, room, reach)
-        return stamped(shape, places, np.full(len(places), math.radians(self.angle))), region
+        turns = np.full(len(places), math.radians(self.angle))
+        if self.follow == Rows.AXIS:
+            turns += _turns(places, region, room)
+        return stamped(shape, places, turns), region
 
 
 @frozen(kw_only=True)
@@ -89,7 +116,7 @@ class Herangan(Fill):
 
         length = self.spacing - 0.8 * self.width
         within = inset(room.parts, self.margin + length / 2)
-        places, part = scattered(within, self.spacing, room.seed)
+        places, part = scattered(within, self.spacing, room.seed, room.period)
         shape = fragment(length, self.width, room.tolerance)
         return stamped(shape, places, turns(len(places), room.seed)), within.region[part]
 
@@ -105,10 +132,18 @@ class Ukel(Angled):
         Annotated[Length, Between(0.05, 1000)], Useful(4, 12), Says("from spiral to spiral")
     ] = 5.0
 
+    def basis(self) -> tuple[tuple[float, float], tuple[float, float]] | None:
+        """Every other row is moved by a quarter of the way from pair to pair."""
+        return (2 * self.spacing - self.width, 0.0), (0.0, 2 * self.spacing)
+
     def _laid(self, room: Room) -> Marks:
         from batik_vector.geometry.fills.figures import spirals
 
         return spirals(room.parts, self.margin, self.angle, self.spacing, self.width, room.tolerance)
+
+
+def _hexagon(side: float) -> tuple[tuple[float, float], tuple[float, float]]:
+    return (side, 0.0), (side / 2, side * math.sqrt(0.75))
 
 
 def _places(fill: Cecek | CacahGori, follow: Rows, room: Room, reach: float, rows: int = 0) -> Places:
@@ -119,12 +154,35 @@ def _places(fill: Cecek | CacahGori, follow: Rows, room: Room, reach: float, row
     from batik_vector.geometry.fills.scatter import scattered
 
     if follow == Rows.CONTOUR:
-        return along(room.parts, room.centres, room.turns, fill.margin + reach, fill.spacing, rows)
+        told = fill.margin + reach, fill.spacing, rows
+        return along(room.parts, room.centres, room.turns, *told, room.period)
     within = inset(room.parts, fill.margin + reach)
     if follow == Rows.CENTRE:
         places, part = circles(within, room.centres, fill.spacing, room.turns)
     elif follow == Rows.SCATTER:
-        places, part = scattered(within, fill.spacing, room.seed)
+        places, part = scattered(within, fill.spacing, room.seed, room.period)
+    elif follow == Rows.AXIS:
+        return _along_midribs(fill, room, within)
     else:
         places, part = hexagonal(within, fill.angle, fill.spacing)
     return places, within.region[part]
+
+
+def _along_midribs(fill: Cecek | CacahGori, room: Room, within: Parts) -> Places:
+    from batik_vector.geometry.fills.contours import CROWDED
+    from batik_vector.geometry.fills.midribs import midribs, spots, straightened
+    from batik_vector.geometry.fills.thinning import thinned
+
+    ribs = midribs(room.parts.shapes)
+    places, region = spots(straightened(within, ribs, fill.spacing / 4), ribs, fill.spacing)
+    places = ribs.bent(places, region)
+    kept = thinned(places, region, CROWDED * fill.spacing)
+    return places[kept], region[kept]
+
+
+def _turns(places: Array, region: Indices, room: Room) -> Array:
+    """Return the directions of midribs beside places, in radians."""
+    from batik_vector.geometry.fills.midribs import midribs
+
+    ribs = midribs(room.parts.shapes)
+    return ribs.turns(ribs.straight(places, region), region)

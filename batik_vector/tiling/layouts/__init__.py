@@ -21,7 +21,7 @@ from batik_vector.tiling.layouts.copies import (
     Single,
     Spot,
 )
-from batik_vector.tiling.layouts.grounds import Clear, Stripes, Toss
+from batik_vector.tiling.layouts.grounds import Clear, FreeGround, Pack, Scattered, Stripes, Toss
 from batik_vector.tiling.layouts.named import (
     Circle,
     DoubleSquare,
@@ -48,6 +48,8 @@ LAYOUTS: dict[str, type[Layout]] = {
     "places": Places,
     "lattice": Lattice,
     "toss": Toss,
+    "pack": Pack,
+    "ground": FreeGround,
     "stripes": Stripes,
     "ifs": System,
 }
@@ -64,15 +66,18 @@ __all__ = [
     "FiveCircle",
     "FourSquare",
     "Free",
+    "FreeGround",
     "Julian",
     "Lattice",
     "Layout",
     "MapSpec",
     "Mirror",
+    "Pack",
     "Pair",
     "Places",
     "Ring",
     "RosetteLayout",
+    "Scattered",
     "Share",
     "Single",
     "Spot",

@@ -1,6 +1,6 @@
-"""Layouts that fill the repeat: tossed marks, and lines that run round it and close.
+"""Layouts that fill the repeat: marks tossed or packed, and lines that run round it and close.
 
-Both are measured in mm on cloth and need to know the lattice: what they do is in
+They are measured in mm on cloth and need to know the lattice: what they do is in
 :mod:`batik_vector.tiling.tossing.toss` and :mod:`batik_vector.tiling.torus.stripes`.
 """
 
@@ -11,7 +11,7 @@ import math
 from typing import Annotated, ClassVar
 
 from batik_vector.errors import GeometryError
-from batik_vector.fields import Between, Length, Says, check
+from batik_vector.fields import Between, Length, Says, Useful, check
 from batik_vector.tiling.layouts.base import Layout
 from batik_vector.values import frozen
 
@@ -28,14 +28,13 @@ class Clear(enum.StrEnum):
 
 
 @frozen(kw_only=True)
-class Toss(Layout):
-    """Marks scattered by chance and evenly over the whole repeat, none overlapping another, seam or no seam.
-
-    Poisson-disc darts (Cook, "Stochastic sampling in computer graphics", 1986) with the real outlines for
-    discs, thrown where holes are left, and then shifted until the gaps are even.
-    """
+class Scattered(Layout):
+    """Marks of one or several motifs over the whole repeat, none overlapping another, seam or no seam."""
 
     spreads: ClassVar[bool] = False
+    kind: ClassVar[str] = ""
+    """What it is called where a key is refused."""
+
     distance: Annotated[
         Annotated[Length, Between(0, 1000)], Says("least gap between two marks, outline to outline")
     ] = 1.0
@@ -49,7 +48,7 @@ class Toss(Layout):
     ] = None
     turn: Annotated[
         tuple[Annotated[float, Between(-360, 360)], Annotated[float, Between(-360, 360)]],
-        Says("degrees between which each mark is turned by chance"),
+        Says("degrees between which each mark is turned"),
     ] = (0.0, 360.0)
     turns: Annotated[
         tuple[Annotated[float, Between(-360, 360)], ...], Says("the only turns there are, instead of turn")
@@ -67,9 +66,6 @@ class Toss(Layout):
     tries: Annotated[
         int, Between(10, 100_000), Says("darts that must miss in a row for the repeat to be full")
     ] = 2000
-    settle: Annotated[
-        int, Between(0, 100), Says("how often the marks are shifted to even out the gaps between them")
-    ] = 12
     seed: Annotated[
         Annotated[int, Between(0, 2**63 - 1)] | None, Says("a seed of its own; the recipe's when left out")
     ] = None
@@ -81,6 +77,47 @@ class Toss(Layout):
                 raise GeometryError(f"{name} = [{low:g}, {high:g}]: expected the lesser number first")
         if self.turns and self.turn != (0.0, 360.0):
             raise GeometryError("turn and turns are both given: expected one of them")
+
+
+@frozen(kw_only=True)
+class Toss(Scattered):
+    """Marks scattered by chance and evenly over the whole repeat, none overlapping another, seam or no seam.
+
+    Poisson-disc darts (Cook, "Stochastic sampling in computer graphics", 1986) with the real outlines for
+    discs, thrown where holes are left, and then shifted until the gaps are even.
+    """
+
+    kind = "toss"
+
+    settle: Annotated[
+        int, Between(0, 100), Says("how often the marks are shifted to even out the gaps between them")
+    ] = 12
+
+
+@frozen(kw_only=True)
+class Pack(Scattered):
+    """Marks packed side by side over the whole repeat so that their outlines nestle, seam or no seam.
+
+    Each is set down where it lies closest to those that are there, turned as that needs, and holes are
+    filled with the largest that fit. Twice as much is covered as by a toss.
+    """
+
+    kind = "pack"
+
+    tries: Annotated[
+        int, Between(20, 5000), Useful(50, 1000), Says("places tried for each mark: more lie closer")
+    ] = 120
+
+
+@frozen(kw_only=True)
+class FreeGround(Layout):
+    """No motif: the marks of ``fill_with``, in all of the repeat that earlier placements leave free.
+
+    They keep their margin to what lies there, and go on over the seam. Rows are drawn apart or aslant by so
+    much that they close on the repeat, by 5 % at most.
+    """
+
+    spreads: ClassVar[bool] = False
 
 
 @frozen(kw_only=True)

@@ -152,7 +152,20 @@ def _kept(
 
 
 def _by_pairs(areas: Geometries) -> shapely.Geometry:
-    """Return the union of many areas, neighbours first, two by two: so what it costs is known in time."""
+    """Return the union of many areas, neighbours first, two by two: so what it costs is known in time.
+
+    Those that meet no other are only gathered.
+    """
+    tree = shapely.STRtree(areas)
+    work.refuse_pairs(tree, shapely.envelope(areas))
+    i, j = tree.query(areas)
+    work.spend_on_pairs(len(i))
+    meets = np.zeros(len(areas), bool)
+    meets[i[i != j]] = True
+    alone, areas = areas[~meets], areas[meets]
+    if len(alone):
+        parts = shapely.get_parts(np.append(alone, _by_pairs(areas)) if len(areas) else alone)
+        return shapely.multipolygons(parts[shapely.get_type_id(parts) == shapely.GeometryType.POLYGON])
     areas = areas[_side_by_side(areas)]
     while len(areas) > 1:
         pairs = len(areas) // 2

@@ -155,7 +155,7 @@ def thrown(
         batch = batch if len(fit) <= most else int(fit[most - 1]) + 1
         fit = fit[:most]
         fit = fit[scatter.compatible(marks.take(fit), spacing.distance, spacing.kin)]
-        fit = fit[_ranks(darts.motif[fit]) < want[darts.motif[fit]]]
+        fit = fit[ranks(darts.motif[fit]) < want[darts.motif[fit]]]
         total += batch
         missed = missed + batch if not len(fit) else batch - 1 - int(fit[-1])
         if len(fit):
@@ -206,7 +206,7 @@ def _shares(scatter: Scatter, rules: Rules, want: Array) -> Array:
     return np.asarray(lacks / lacks.sum())
 
 
-def _ranks(motif: Indices) -> Indices:
+def ranks(motif: Indices) -> Indices:
     """Return how many earlier ones of the same motif each has."""
     order = np.argsort(motif, kind="stable")
     _, start, sizes = np.unique(motif[order], return_index=True, return_counts=True)

@@ -10,7 +10,7 @@ import shapely
 
 from batik_vector.artwork import Geometries
 from batik_vector.geometry.sampling import Array
-from batik_vector.tiling.layouts.grounds import Toss
+from batik_vector.tiling.layouts.grounds import Scattered
 from batik_vector.tiling.tossing.darts import Rules, Spacing
 from batik_vector.tiling.tossing.marks import Poses
 from batik_vector.tiling.tossing.scatter import Scatter
@@ -42,7 +42,7 @@ class Plan:
     fill: float | None
 
     @staticmethod
-    def of(spec: Toss, marks: Geometries, rules: Rules, scatter: Scatter) -> Plan:
+    def of(spec: Scattered, marks: Geometries, rules: Rules, scatter: Scatter) -> Plan:
         """Plan a toss of marks, given as their bodies in mm at the least size."""
         images = len(scatter.torus.operations)
         low, high = rules.size

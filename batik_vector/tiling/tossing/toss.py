@@ -1,4 +1,4 @@
-"""A toss from beginning to end: how many marks, where they are thrown, how they settle, and its report."""
+"""A toss or a packing from beginning to end: how many marks, where they come to lie, and its report."""
 
 from __future__ import annotations
 
@@ -13,10 +13,11 @@ from batik_vector.artwork import Geometries
 from batik_vector.errors import GeometryError, TooLargeError
 from batik_vector.geometry.maps.affine import IDENTITY, Affine
 from batik_vector.geometry.maps.affines import Affines, turns
-from batik_vector.tiling.layouts.grounds import Toss
+from batik_vector.tiling.layouts.grounds import Pack, Scattered, Toss
 from batik_vector.tiling.torus.torus import as_steps, to_mm
 from batik_vector.tiling.tossing.darts import Dice, Rules, Spacing, thrown
 from batik_vector.tiling.tossing.marks import Field, Kit, Poses
+from batik_vector.tiling.tossing.packing import Asked, packed_on
 from batik_vector.tiling.tossing.plan import Plan
 from batik_vector.tiling.tossing.scatter import Scatter, Torus
 from batik_vector.tiling.tossing.settling import settled
@@ -26,8 +27,9 @@ from batik_vector.values import frozen
 MOST_MARKS = 20_000
 """Marks of one toss. A cloth of more is a ground: smaller, and repeated."""
 
-OUTLINE_SHARE = 1 / 400
-"""How far an outline may be simplified, as a share of the breadth of a mark; see :func:`outline`."""
+OUTLINE_SHARE, PACKED_SHARE = 1 / 400, 1 / 2000
+"""How far an outline may be simplified, as a share of the breadth of a mark; see :func:`outline`. What it
+stands beyond the mark is lost to a packing."""
 
 NOTCH_SHARE = 0.08
 """Half the breadth of the notches in a mark, as a share of its own, that are closed to others: nobody sees
@@ -67,7 +69,7 @@ class TossReport:
         per_m2: marks per square metre of cloth.
         distance: the least gap in mm between two marks of it, or one and what it keeps clear of, measured
             across the seam as well. A little more than asked for, as outlines are rounded outwards.
-        darts: how many were thrown.
+        darts: how many were thrown, or places tried of a packing.
     """
 
     motifs: tuple[str, ...]
@@ -107,17 +109,18 @@ class Tossed:
     report: TossReport
 
 
-def outline(body: shapely.Geometry, distance: float, slack: float) -> shapely.Geometry:
+def outline(body: shapely.Geometry, distance: float, slack: float, packed: bool = False) -> shapely.Geometry:
     """Return a coarse shape that holds a mark (mm) and as much as it may stand beyond its body.
 
-    Holes are filled and narrow notches closed, so that marks lie beside one another and not inside.
+    Holes are filled and narrow notches closed, so that marks lie beside one another and not inside. Those
+    that are packed nestle: of them only such notches are closed as nothing has room in.
     """
     low_x, low_y, high_x, high_y = shapely.bounds(body)
     breadth = math.hypot(high_x - low_x, high_y - low_y)
-    close = max(distance / 2, NOTCH_SHARE * breadth)
+    close = distance / 2 if packed else max(distance / 2, NOTCH_SHARE * breadth)
     closed = shapely.buffer(shapely.buffer(body, close, quad_segs=4), -close, quad_segs=4)
     filled = shapely.union_all(shapely.polygons(shapely.get_exterior_ring(shapely.get_parts(closed))))
-    step = max(breadth * OUTLINE_SHARE, slack)
+    step = max(breadth * (PACKED_SHARE if packed else OUTLINE_SHARE), slack / 2 if packed else slack)
     # Four pieces to a quarter turn reach to 0.98 of the radius, and simplifying takes off a step at most.
     grown = shapely.buffer(shapely.union(filled, body), slack + 1.1 * step, quad_segs=4)
     return shapely.simplify(grown, step * 0.95)
@@ -128,8 +131,8 @@ def _whole(marks: Geometries) -> Geometries:
     return np.asarray(shapely.transform(marks, np.rint), dtype=object)
 
 
-def toss(spec: Toss, marks: Marks, torus: Torus, taken: Field, seed: int) -> Tossed:
-    """Scatter marks over the torus.
+def toss(spec: Scattered, marks: Marks, torus: Torus, taken: Field, seed: int) -> Tossed:
+    """Scatter or pack marks over the torus.
 
     Args:
         spec: how many, how far apart and how turned.
@@ -147,12 +150,20 @@ def toss(spec: Toss, marks: Marks, torus: Torus, taken: Field, seed: int) -> Tos
     # Whole steps throughout: where two ways to simplify are as good, the last bit of a sine would choose, and
     # processors have different ones.
     bodies = to_mm(_whole(as_steps(marks.bodies)))
-    outlines = np.array([outline(body, spec.distance, marks.slack) for body in bodies], dtype=object)
+    packed = isinstance(spec, Pack)
+    outlines = np.array([outline(body, spec.distance, marks.slack, packed) for body in bodies], dtype=object)
     kit = Kit.of(_whole(as_steps(outlines)))
     _refuse_too_many(spec, kit, torus)
     _refuse_impossible(spec, kit, torus)
     scatter = Scatter(torus, kit, spec.size[1] / spec.size[0], taken)
-    darts = _filled(scatter, spec, marks, Dice(seed if spec.seed is None else spec.seed))
+    dice = Dice(seed if spec.seed is None else spec.seed)
+    if isinstance(spec, Toss):
+        darts = _filled(scatter, spec, marks, dice)
+    else:
+        rules = _rules(spec, len(marks.names))
+        plan = Plan.of(spec, marks.bodies, rules, scatter)
+        asked = Asked(rules, spec.distance * STEPS_PER_MM, spec.tries, plan.wanted)
+        darts = packed_on(scatter, asked, dice)
     _check_count(spec, scatter, marks)
     field = Field.joined([scatter.field.moved(operation) for operation in torus.operations])
     return Tossed(
@@ -162,7 +173,7 @@ def toss(spec: Toss, marks: Marks, torus: Torus, taken: Field, seed: int) -> Tos
     )
 
 
-def _check_distance(spec: Toss, torus: Torus) -> None:
+def _check_distance(spec: Scattered, torus: Torus) -> None:
     shortest = torus.shortest / STEPS_PER_MM
     if spec.distance >= shortest:
         raise GeometryError(
@@ -171,7 +182,7 @@ def _check_distance(spec: Toss, torus: Torus) -> None:
         )
 
 
-def _refuse_too_many(spec: Toss, kit: Kit, torus: Torus) -> None:
+def _refuse_too_many(spec: Scattered, kit: Kit, torus: Torus) -> None:
     side = np.sqrt(shapely.area(kit.outlines)) + spec.distance * STEPS_PER_MM
     about = torus.area / float(np.mean(side)) ** 2
     if spec.count is None and about > MOST_MARKS:
@@ -181,7 +192,7 @@ def _refuse_too_many(spec: Toss, kit: Kit, torus: Torus) -> None:
         )
 
 
-def _refuse_impossible(spec: Toss, kit: Kit, torus: Torus) -> None:
+def _refuse_impossible(spec: Scattered, kit: Kit, torus: Torus) -> None:
     """Refuse a count that cannot fit, or that no toss comes near; others are tried, and told when they fail.
 
     Outlines grown by half the distance stay apart, and so do the largest discs within them, whatever their
@@ -199,11 +210,11 @@ def _refuse_impossible(spec: Toss, kit: Kit, torus: Torus) -> None:
     if 0 < most < spec.count:
         raise GeometryError(f"count = {spec.count}: by their area alone no more than {most} fit {at}")
     most = int(min(by_area * CLOSEST, by_discs * CLOSEST_DISCS))
-    if spec.count >= MANY and most < spec.count:
+    if isinstance(spec, Toss) and spec.count >= MANY and most < spec.count:
         raise GeometryError(f"count = {spec.count}: no toss is so close that more than {most} fit {at}")
 
 
-def _rules(spec: Toss, motifs: int) -> Rules:
+def _rules(spec: Scattered, motifs: int) -> Rules:
     if spec.weights and len(spec.weights) != motifs:
         listed = ", ".join(f"{weight:g}" for weight in spec.weights[:8])
         raise GeometryError(f"weights = [{listed}]: expected one for each motif, {motifs} in all")
@@ -279,7 +290,7 @@ def _part(total: int, parts: int, number: int) -> int:
     return total * (number + 1) // parts - total * number // parts
 
 
-def _check_count(spec: Toss, scatter: Scatter, marks: Marks) -> None:
+def _check_count(spec: Scattered, scatter: Scatter, marks: Marks) -> None:
     fit = len(scatter)
     if not fit:
         breadth = 2 * float(scatter.kit.reach.min()) / STEPS_PER_MM
@@ -314,7 +325,7 @@ def _copies(scatter: Scatter, motif: int) -> Affines:
     return Affines.translations(places) @ stretch @ turns(poses.turn.tolist()) @ sized @ to_middle
 
 
-def _report(scatter: Scatter, spec: Toss, marks: Marks, darts: int) -> TossReport:
+def _report(scatter: Scatter, spec: Scattered, marks: Marks, darts: int) -> TossReport:
     images = len(scatter.torus.operations)
     poses = scatter.poses
     bodies = as_steps(marks.bodies)

@@ -1,0 +1,169 @@
+"""The free ground filled with marks (*isen-isen*): round all that is placed already, over the seam too."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+import shapely
+
+from batik_vector.artwork import Geometries, Ink
+from batik_vector.errors import GeometryError, RecipeError, TooLargeError
+from batik_vector.geometry import work
+from batik_vector.geometry.fills.insets import whole
+from batik_vector.geometry.fills.periodic import Period, closing
+from batik_vector.geometry.maps.affine import Affine, unit_turn
+from batik_vector.geometry.regions import oriented, polygonal
+from batik_vector.geometry.sampling import Array
+from batik_vector.recipe.fills import Fill, Room
+from batik_vector.recipe.placement import Placement
+from batik_vector.tiling.torus import overlay
+from batik_vector.tiling.torus.torus import Lattice, Window, as_steps, clip_areas, to_mm, to_step_grid, wrap
+from batik_vector.tiling.welding.congruent import polygons
+from batik_vector.tiling.welding.sheets import Sheet
+from batik_vector.units import GRID_MM, STEPS_PER_MM, format_mm
+
+MOST_ASLANT = 0.05
+"""By how much rows may be drawn apart or aslant to close on the repeat."""
+
+ROUNDING = 2 * GRID_MM
+"""What is kept of a margin for moves onto the grid: that of a mark, and that of what it keeps from."""
+
+
+class Given(NamedTuple):
+    """What a ground hangs on: the lattice in grid steps, the inks by name, ``tolerance`` in mm."""
+
+    lattice: Lattice
+    inks: Mapping[str, Ink]
+    tolerance: float
+    seed: int
+    limit: int
+
+
+def free_ground(placement: Placement, sheets: Sequence[Sheet], given: Given) -> Sheet:
+    """Return the marks that fill what sheets leave free of a repeat.
+
+    Args:
+        placement: of the ground, with its fill.
+        sheets: all that has been placed.
+        given: what else it hangs on.
+
+    Raises:
+        GeometryError: where nothing has room, or rows do not close on the repeat.
+        TooLargeError: where the marks are far too many.
+    """
+    fill, ink = _told(placement), _ink(placement, given.inks)
+    lattice = np.array(given.lattice, float) / STEPS_PER_MM
+    aslant = _aslant(fill, lattice)
+    # No way becomes shorter than by the least factor of the map.
+    least = float(np.linalg.svd(aslant, compute_uv=False).min())
+    inner = replace(fill, margin=fill.margin / least + ROUNDING)
+    rings = fill.basis() is None and _follows_rings(fill)
+    pad = float(np.diag(lattice).min()) / 2 if rings else 4 * fill.spacing + 2 * fill.margin
+    free = _free(sheets, given, lattice, pad)
+    back: Array = np.asarray(np.linalg.inv(aslant), np.float64)
+    room = Room(
+        whole(_linear(free, back)),
+        np.zeros((len(free), 2)),
+        1,
+        given.tolerance,
+        given.seed,
+        None if fill.basis() else Period(lattice, pad),
+    )
+    try:
+        marks = inner.lay(room)[0] if len(free) else np.empty(0, dtype=object)
+    except TooLargeError as error:
+        raise TooLargeError(f"fill_with.{error}") from None
+    marks = _once(_linear(marks, aslant), fill, given.lattice, Period(lattice, pad))
+    if not len(marks):
+        raise GeometryError(
+            f'fill_with.margin = {fill.margin:g}: no mark of "{fill.kind}" has room in what is free of the '
+            "repeat, expected a smaller margin or smaller marks"
+        )
+    count = int(shapely.get_num_coordinates(marks).sum())
+    if count > given.limit:
+        raise TooLargeError(
+            f"fill_with.spacing = {fill.spacing:g}: {count:,} vertices, past the limit of {given.limit:,}: "
+            "expected a larger spacing"
+        )
+    return Sheet(f"ground.{fill.kind}", ink, oriented(polygonal(marks)), whole=fill.whole)
+
+
+def _told(placement: Placement) -> Fill:
+    assert placement.fill_with is not None
+    return placement.fill_with
+
+
+def _ink(placement: Placement, inks: Mapping[str, Ink]) -> Ink:
+    name = _told(placement).ink or placement.ink or (next(iter(inks)) if len(inks) == 1 else "")
+    if not name:
+        raise RecipeError(f"no ink is named, and the recipe has several: expected one of {', '.join(inks)}")
+    return inks[name]
+
+
+def _follows_rings(fill: Fill) -> bool:
+    return str(getattr(fill, "follow", "contour")) == "contour" and fill.kind != "herangan"
+
+
+def _aslant(fill: Fill, lattice: Array) -> Array:
+    """Return the map that brings the rows of a fill so that they close on the repeat, shape (2, 2)."""
+    rows = fill.basis()
+    if rows is None:
+        return np.eye(2)
+    turn = unit_turn(float(getattr(fill, "angle", 0.0)))
+    z = np.array([complex(*row) for row in rows]) * turn
+    found = closing(np.column_stack([z.real, z.imag]), lattice)
+    if not np.abs(found - np.eye(2)).max() <= MOST_ASLANT:
+        sides = " × ".join(format_mm(side) for side in np.diag(lattice).tolist())
+        raise GeometryError(
+            f"fill_with.spacing = {fill.spacing:g}: rows so far apart do not close on the repeat of {sides} "
+            f"mm within {100 * MOST_ASLANT:g} %: expected a smaller spacing, or another angle"
+        )
+    return found
+
+
+def _free(sheets: Sequence[Sheet], given: Given, lattice: Array, pad: float) -> Geometries:
+    """Return what is free of the window of a repeat and ``pad`` mm round it, in mm."""
+    shapes = [polygons(sheet.areas) for sheet in sheets if sheet.ink is not None]
+    shapes += [
+        np.asarray(shapely.buffer(sheet.lines, sheet.ink.width / 2, quad_segs=16), dtype=object)
+        for sheet in sheets
+        if sheet.ink is not None and len(sheet.lines)
+    ]
+    taken = polygonal(overlay.valid(as_steps(np.concatenate([np.empty(0, dtype=object), *shapes]))))
+    reach = round(pad * STEPS_PER_MM)
+    (ax, _), (_, by) = given.lattice
+    window = Window(-reach, -reach, ax + reach, by + reach)
+    there, _ = wrap(taken, np.arange(len(taken)), given.lattice, window)
+    work.spend(float(shapely.get_num_coordinates(there).sum()))
+    left = shapely.difference(window.box, shapely.union_all(there))
+    parts = np.asarray(shapely.get_parts(left), dtype=object)
+    return oriented(to_mm(parts[shapely.area(parts) > 1.0]))
+
+
+def _linear(marks: Geometries, rows: Array) -> Geometries:
+    if not len(marks):
+        return marks
+    (a, b), (c, d) = rows.tolist()
+    return Affine(a, b, c, d).apply(marks)
+
+
+def _once(marks: Geometries, fill: Fill, lattice: Lattice, period: Period) -> Geometries:
+    """Return of marks one of all those that the lattice joins."""
+    if not len(marks):
+        return marks
+    if not fill.basis():
+        if not _follows_rings(fill):
+            return marks
+        stamped = "follow" in fill.__dataclass_fields__ and fill.whole
+        if stamped:
+            return marks[period.apart(shapely.get_coordinates(shapely.centroid(marks)), fill.bare)]
+        return marks[period.clear(marks, fill.bare)]
+    if fill.whole:
+        return marks[period.owns(shapely.get_coordinates(shapely.centroid(marks)))]
+    steps = polygonal(to_step_grid(marks))
+    window = Window(0, 0, lattice[0][0], lattice[1][1])
+    pieces, _ = clip_areas(steps, np.zeros(len(steps), np.intp), window)
+    return to_mm(polygonal(pieces))

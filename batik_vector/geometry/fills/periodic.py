@@ -1,0 +1,111 @@
+"""Fills of a ground that repeats: every mark is laid once, and lies between its neighbours on the seam too.
+
+What is to be filled is drawn larger than a repeat, and of what is found there once in every repeat one is
+taken. Rows close on the repeat when the plane is first drawn a little aslant or apart, so that the lattice of
+the marks holds that of the repeat.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from batik_vector.geometry.fills.thinning import near_pairs, settled
+from batik_vector.geometry.maps.affine import Affine
+from batik_vector.geometry.sampling import Array, Geometries, Indices
+
+ASIDE = 0.000371
+"""By how many mm the window is moved, so that no row of marks runs along its edge."""
+
+AROUND = [(i, j) for i in (-2, -1, 0, 1, 2) for j in (-2, -1, 0, 1, 2)]
+"""Translates that may come near the window, each by so many of the two translations."""
+
+
+class Period(NamedTuple):
+    """A repeat, in mm.
+
+    Attributes:
+        lattice: its two translations, rows of shape (2, 2); the first or the second parallel to its axis.
+        pad: how far beyond the window of a repeat regions are told.
+    """
+
+    lattice: Array
+    pad: float
+
+    @property
+    def window(self) -> Array:
+        """Width and height of the rectangle that holds every place once."""
+        return np.diag(self.lattice)
+
+    def owns(self, points: Array) -> NDArray[np.bool_]:
+        """Return which points, shape (n, 2), lie in the window."""
+        return np.asarray(((points >= ASIDE) & (points < self.window + ASIDE)).all(axis=1))
+
+    def rings(self, rings: Geometries, reach: float) -> NDArray[np.bool_]:
+        """Return which rings lie about a middle in the window, and hang on nothing beyond the pad.
+
+        Args:
+            rings: that keep ``reach`` from the edges of their regions.
+            reach: in mm.
+        """
+        bounds = shapely.bounds(rings)
+        most = self.pad - 1.05 * reach
+        inside = (bounds[:, :2] > -most) & (bounds[:, 2:] < self.window + most)
+        middles = shapely.get_coordinates(shapely.centroid(shapely.polygons(rings)))
+        return np.asarray(inside.all(axis=1) & self.owns(middles))
+
+    def apart(self, points: Array, least: float) -> NDArray[np.bool_]:
+        """Return which of points stay so that none lie nearer than ``least``, over the seam too.
+
+        The earlier has its way.
+        """
+        copies, owner = self.images(points, least)
+        group = np.zeros(len(copies), np.intp)
+        a, b = near_pairs(copies, group, least)
+        a, b = owner[a], owner[b]
+        return settled(np.arange(len(points)), a[a != b], b[a != b])
+
+    def images(self, points: Array, reach: float) -> tuple[Array, Indices]:
+        """Return points and their translates within ``reach`` of the box round them, and whose they are."""
+        low, high = points.min(axis=0) - reach, points.max(axis=0) + reach
+        found, owner = [points], [np.arange(len(points))]
+        for i, j in AROUND:
+            if i or j:
+                moved = points + i * self.lattice[0] + j * self.lattice[1]
+                near = np.flatnonzero(((moved >= low) & (moved <= high)).all(axis=1))
+                found.append(moved[near])
+                owner.append(near)
+        return np.concatenate(found), np.concatenate(owner)
+
+    def clear(self, marks: Geometries, bare: float) -> NDArray[np.bool_]:
+        """Return which marks stay so that none comes nearer to a translate of another than ``bare``."""
+        bounds = shapely.bounds(marks)
+        low, high = bounds[:, :2].min(axis=0) - bare, bounds[:, 2:].max(axis=0) + bare
+        moved, owner = [], []
+        for i, j in AROUND:
+            if i or j:
+                shift = i * self.lattice[0] + j * self.lattice[1]
+                near = ((bounds[:, :2] + shift <= high) & (bounds[:, 2:] + shift >= low)).all(axis=1)
+                moved.append(Affine.translation((float(shift[0]), float(shift[1]))).apply(marks[near]))
+                owner.append(np.flatnonzero(near))
+        there, of = np.concatenate(moved), np.concatenate(owner)
+        a, b = shapely.STRtree(marks).query(there, predicate="dwithin", distance=bare)
+        a = of[a]
+        return settled(np.arange(len(marks)), a[a != b], b[a != b])
+
+
+def closing(basis: Array, lattice: Array) -> Array:
+    """Return the map nearest to the identity, shape (2, 2), under which a lattice holds another.
+
+    Args:
+        basis: of the lattice of marks, a row each, shape (2, 2).
+        lattice: that it shall hold, a row each.
+    """
+    times = np.rint(np.linalg.solve(basis.T, lattice.T).T)
+    if abs(np.linalg.det(times)) < 0.5:
+        return np.full((2, 2), np.nan)
+    # With rows r, basis @ map.T is the new basis, and times of it are the lattice.
+    return np.asarray(np.linalg.solve(basis, np.linalg.solve(times, lattice)).T)
