@@ -167,5 +167,5 @@ def spots(straight: Parts, ribs: Midribs, spacing: float) -> tuple[Array, Indice
     count = np.maximum(np.floor(high / spacing - moved).astype(np.int64) - first + 1, 0)
     row = np.repeat(np.arange(len(of)), count)
     number = first[row] + np.arange(len(row)) - np.repeat(np.cumsum(count) - count, count)
-    run: Array = (number + moved[row]) * spacing
-    return ribs.along(run, aside[row], of[row]), of[row]
+    run, beside = (np.asarray(each, np.float64) for each in ((number + moved[row]) * spacing, aside[row]))
+    return ribs.along(run, beside, of[row]), of[row]

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import shapely
@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from batik_vector.artwork import Geometries
 from batik_vector.geometry import work
+from batik_vector.geometry.regions import polygonal
 from batik_vector.tiling.torus.joining import joined_pairs
 from batik_vector.tiling.torus.remembered import Asked, as_array, interned
 
@@ -164,8 +165,10 @@ def _by_pairs(areas: Geometries) -> shapely.Geometry:
     meets[i[i != j]] = True
     alone, areas = areas[~meets], areas[meets]
     if len(alone):
-        parts = shapely.get_parts(np.append(alone, _by_pairs(areas)) if len(areas) else alone)
-        return shapely.multipolygons(parts[shapely.get_type_id(parts) == shapely.GeometryType.POLYGON])
+        rest = np.array([_by_pairs(areas)] if len(areas) else [], dtype=object)
+        found: Any = shapely.multipolygons(polygonal(np.concatenate([alone, rest])))
+        gathered: shapely.Geometry = found
+        return gathered
     areas = areas[_side_by_side(areas)]
     while len(areas) > 1:
         pairs = len(areas) // 2
