@@ -8,6 +8,7 @@ PY := $(BIN)/python
 READY := $(VENV)/.ready
 TOOLS_READY := $(VENV)/.tools-ready
 STUDIO_READY := $(VENV)/.studio-ready
+SITE_READY := $(VENV)/.site-ready
 CLIENTS_READY := .venv/.clients-ready
 PEERS_READY := .venv-bench/.ready
 WORKERS := -n auto --maxprocesses 8 --dist worksteal
@@ -16,7 +17,7 @@ WORKERS := -n auto --maxprocesses 8 --dist worksteal
 export PYTHON VENV LOWEST
 unexport PYTHONPATH PYTHONHOME VIRTUAL_ENV
 
-.PHONY: help demo studio inkscape-extension test test-clients test-long test-pythons test-lowest test-bare lint format bench golden docs setup clean
+.PHONY: help demo studio inkscape-extension sbom site test test-clients test-long test-pythons test-lowest test-bare test-wheel lint format bench golden docs setup clean
 
 help: ## list these verbs
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' $(firstword $(MAKEFILE_LIST)) | expand -t 22
@@ -30,6 +31,13 @@ studio: $(STUDIO_READY) ## open the studio in the browser
 inkscape-extension: ## pack the extension for Inkscape: out/batik-vector-inkscape.zip
 	@mkdir -p out
 	cd inkscape && $(PYTHON) -m zipfile -c ../out/batik-vector-inkscape.zip batik_tile.inx batik_tile.py
+
+site: $(SITE_READY) ## make the documentation site, and follow its links: out/site/index.html
+	$(PY) -m tools.site
+
+sbom: $(TOOLS_READY) ## write the bill of materials (CycloneDX): out/batik-vector.cdx.json
+	@mkdir -p out
+	$(PY) -m tools.sbom >out/batik-vector.cdx.json
 
 test: $(TOOLS_READY) ## run the tests; ONLY="tests/tiling tests/export": only those
 	$(PY) -m pytest $(WORKERS) -rs $(ONLY)
@@ -49,6 +57,9 @@ test-lowest: ## test with the oldest versions of all that pyproject.toml asks fo
 test-bare: $(TOOLS_READY) ## README's two commands on bare systems: SUITE="trixie bookworm" (the default; all tests on the first), or sid
 	@tools/setup.sh bare
 	@tools/bare.sh $(or $(SUITE),trixie bookworm)
+
+test-wheel: ## wheel and sdist in empty environments, with the newest and the oldest of what is needed
+	@tools/wheel.sh
 
 lint: $(TOOLS_READY) ## check style and types
 	$(BIN)/ruff check .
@@ -77,6 +88,10 @@ $(READY): pyproject.toml tools/setup.sh tools/lowest.py
 
 $(STUDIO_READY): $(READY)
 	@tools/setup.sh studio
+	@touch $@
+
+$(SITE_READY): $(READY)
+	@tools/setup.sh site
 	@touch $@
 
 # What only tests and checks need waits until they are asked for.

@@ -4,6 +4,7 @@
 #   tools/setup.sh python     an environment with this package, and cairo
 #   tools/setup.sh tools      into the same, what tests and checks it
 #   tools/setup.sh studio     into the same, what the studio needs
+#   tools/setup.sh site       into the same, what makes the documentation site
 #   tools/setup.sh peers      .venv-bench with what the benchmarks measure us against
 #   tools/setup.sh clients    the real programs that tests/clients opens files in; in .venv-vpype vpype with our plug-in, vsketch, readers of HPGL
 #   tools/setup.sh bare       what makes a bare system
@@ -139,6 +140,13 @@ studio_ready() {
     rm -f "$venv/.unfinished"
 }
 
+site_ready() {
+    python_known
+    environment "$venv"
+    installed "what makes the site" '.[docs]'
+    rm -f "$venv/.unfinished"
+}
+
 peer() { # where to, requirement: install it without what else it asks for, or note why not
     local missing=$peers/missing/${2%%==*}
     if ! pip_install "$peers" --no-deps ${1:+--target "$1"} "$2" >"$log" 2>&1; then
@@ -213,8 +221,9 @@ case ${1:-} in
 python) python_ready ;;
 tools) tools_ready ;;
 studio) studio_ready ;;
+site) site_ready ;;
 peers) peers_ready ;;
 clients) clients_ready ;;
 bare) programs_ready debootstrap:debootstrap git:git ;;
-*) fail "usage: tools/setup.sh python|tools|studio|peers|clients|bare" ;;
+*) fail "usage: tools/setup.sh python|tools|studio|site|peers|clients|bare" ;;
 esac

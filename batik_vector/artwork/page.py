@@ -192,13 +192,15 @@ class Layer:
 class Provenance:
     """Where a file comes from: enough to make it again.
 
-    ``recipe`` is the recipe's TOML text; ``processes`` are what the page went through for a machine.
+    ``recipe`` is the recipe's TOML text; ``processes`` are what the page went through for a machine;
+    ``plugins`` are the packages, with their versions, that brought kinds which it uses.
     """
 
     recipe: str = ""
     seed: int = 0
     version: str = ""
     processes: tuple[str, ...] = ()
+    plugins: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         check(self)

@@ -18,6 +18,7 @@ import click
 from batik_vector._version import __version__
 from batik_vector.command.compile import compile_command
 from batik_vector.command.drawings import export_motif_command, import_command
+from batik_vector.command.installed_plugins import broken, plugins_command
 from batik_vector.command.library import library_command
 from batik_vector.command.made_files import called
 from batik_vector.command.manual import exit_codes_told, man_command
@@ -259,6 +260,7 @@ for _command in (
     library_command,
     studio_command,
     man_command,
+    plugins_command,
 ):
     cli.add_command(_command)
 
@@ -271,6 +273,8 @@ def schema_command() -> None:
     from batik_vector.recipe.schema import schema
 
     click.echo(json.dumps(schema(), indent=2))
+    for words in broken():
+        complain(words)
 
 
 exit_codes_told(cli)

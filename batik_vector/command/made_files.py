@@ -8,12 +8,22 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from batik_vector.command.options import FORMATS, Finite, format_names, formats_begun
+from batik_vector.command.options import Finite, all_formats, format_names, formats_begun
 
 if TYPE_CHECKING:
     from batik_vector.errors import BatikError
     from batik_vector.making.destinations import Destination
     from batik_vector.making.jobs import Job
+
+
+class _Formats(click.Option):
+    """The option for formats: its help names those of plug-ins, too, when it is read."""
+
+    def get_help_record(self, ctx: click.Context) -> tuple[str, str] | None:
+        """Return the option and its help."""
+        self.help = f"{', '.join(all_formats())}.  [default: what the recipe asks for, or svg]"
+        return super().get_help_record(ctx)
+
 
 _OPTIONS = (
     click.option(
@@ -22,11 +32,11 @@ _OPTIONS = (
     click.option(
         "-f",
         "formats",
+        cls=_Formats,
         multiple=True,
         callback=format_names,
         shell_complete=formats_begun,
         metavar="FORMAT,…",
-        help=f"{', '.join(FORMATS)}.  [default: what the recipe asks for, or svg]",
     ),
     click.option(
         "--process",

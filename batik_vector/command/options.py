@@ -27,19 +27,26 @@ FORMATS = ("svg", "pdf", "dxf", "hpgl", "gcode", "png", "tiff", "swatch", "gpl",
 """As in :data:`batik_vector.export.FORMATS`, which a test compares."""
 
 
+def all_formats() -> tuple[str, ...]:
+    """Return the names of the formats, those of plug-ins too."""
+    from batik_vector import export
+
+    return tuple(export.FORMATS)
+
+
 def format_names(_ctx: click.Context, _param: click.Parameter, texts: Sequence[str]) -> list[str]:
     """Return the names of formats, given one by one or parted by commas."""
     names = [name.strip().lower() for text in texts for name in text.split(",") if name.strip()]
     for name in names:
-        if name not in FORMATS:
-            raise click.BadParameter(unknown_name(name, FORMATS, "format"))
+        if name not in FORMATS and name not in all_formats():
+            raise click.BadParameter(unknown_name(name, all_formats(), "format"))
     return names
 
 
 def formats_begun(_ctx: click.Context, _param: click.Parameter, text: str) -> list[str]:
     """Return what shells offer for the names of formats, the last of several included."""
     before, comma, begun = text.rpartition(",")
-    return [f"{before}{comma}{name}" for name in FORMATS if name.startswith(begun.lower())]
+    return [f"{before}{comma}{name}" for name in all_formats() if name.startswith(begun.lower())]
 
 
 def listed(text: str) -> list[str]:

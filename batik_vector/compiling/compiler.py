@@ -177,7 +177,7 @@ def _blank(recipe: Recipe, cell: Cell) -> Artwork:
         cloth=recipe.cloth.colour,
         dyeing=recipe.dyeing,
         tolerance=recipe.tolerance,
-        provenance=Provenance(recipe.source, recipe.seed, __version__),
+        provenance=Provenance(recipe.source, recipe.seed, __version__, plugins=recipe.plugins),
     )
 
 

@@ -13,10 +13,9 @@ options class in :mod:`batik_vector.export.options`, and a line in ``FORMATS``.
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+import re
 from importlib import import_module
 from pathlib import Path
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Annotated, Any, BinaryIO
 
 from batik_vector.errors import ExportError, UnknownNameError
@@ -38,7 +37,7 @@ from batik_vector.export.options import (
     TiffOptions,
     Turn,
 )
-from batik_vector.fields import Instead, given
+from batik_vector.fields import Catalogue, Instead, given
 from batik_vector.values import frozen
 
 if TYPE_CHECKING:
@@ -116,7 +115,24 @@ class Format:
         return parts
 
 
-FORMATS: Mapping[str, Format] = MappingProxyType(
+def _of_plugin(name: str, cls: Any) -> Format:
+    """Return the row of a plug-in's format, which the class of its outputs tells.
+
+    Raises:
+        ValueError: with what that class lacks.
+    """
+    suffix, module = getattr(cls, "suffix", ""), getattr(cls, "module", "")
+    if not re.fullmatch(r"(-[a-z0-9]+)?(\.[a-z0-9]+)+", suffix):
+        raise ValueError(f'suffix = "{suffix}", expected one such as ".csv"')
+    if suffix in {FORMATS[each].suffix for each in FORMATS.own}:
+        raise ValueError(f'suffix = "{suffix}", which is another format\'s')
+    if not module:
+        raise ValueError("expected module = where its write and render stand")
+    return Format(suffix, cls.writer, (cls.__doc__ or name).partition("\n")[0].rstrip("."), module)
+
+
+FORMATS: Catalogue[Format] = Catalogue(
+    "formats",
     {
         "svg": Format(
             ".svg", SvgOptions, "layers for Inkscape, Illustrator, plotters", "batik_vector.export.svg"
@@ -142,7 +158,9 @@ FORMATS: Mapping[str, Format] = MappingProxyType(
         "ase": Format(
             ".ase", PaletteOptions, "the inks as swatches for Illustrator", "batik_vector.export.ase"
         ),
-    }
+    },
+    lambda: object,
+    _of_plugin,
 )
 
 

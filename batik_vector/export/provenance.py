@@ -51,6 +51,7 @@ def xml_fields(provenance: Provenance) -> Iterator[tuple[str, str]]:
     """Yield (element, text) for the XML formats; what XML cannot hold is base64 and named so."""
     for name, value in (
         *(("process", each) for each in provenance.processes),
+        *(("plugin", each) for each in provenance.plugins),
         ("version", provenance.version),
         ("seed", str(provenance.seed)),
         ("recipe", provenance.recipe),
@@ -70,6 +71,8 @@ def ascii_line(provenance: Provenance) -> str:
     }
     if provenance.processes:
         values["processes"] = provenance.processes
+    if provenance.plugins:
+        values["plugins"] = provenance.plugins
     return json.dumps(values, ensure_ascii=True)
 
 
@@ -98,12 +101,16 @@ def read_provenance(path: str | Path) -> Provenance:
         if size > MAX_FILE:
             raise _fault(path, f"{size:,} bytes is more than a compiled file has")
         data = path.read_bytes()
-        found = _read(data)
     except OSError as error:
         raise _fault(path, error.strerror or str(error)) from error
+    return provenance_in(data, path)
+
+
+def provenance_in(data: bytes, path: Path) -> Provenance:
+    """Return what the bytes of a file carry; faults call it by its path; see :func:`read_provenance`."""
+    try:
+        found = _read(data)
     except ValueError as error:
-        if isinstance(error, RecipeError):
-            raise
         raise _fault(path, str(error)) from error
     if found is None:
         where = (
@@ -113,6 +120,13 @@ def read_provenance(path: str | Path) -> Provenance:
         )
         raise _fault(path, f"carries no recipe: {where}")
     return found
+
+
+def is_made(head: bytes) -> bool:
+    """Return whether bytes begin as a file of a format that carries its recipe, which no TOML does."""
+    text = head.lstrip(b"\xef\xbb\xbf \t\r\n")
+    known = (b"%PDF-", b"\x89PNG\r\n\x1a\n", b"II*\0", b"<")
+    return text.startswith(known) or HPGL_MARK in head or DXF_MARK.encode("ascii") in head
 
 
 def _fault(path: Path, words: str) -> RecipeError:
@@ -141,10 +155,10 @@ def _from_line(line: str) -> Provenance:
         raise ValueError("its provenance is damaged") from None
     if not (isinstance(recipe, str) and isinstance(version, str) and isinstance(seed, int)):
         raise ValueError("its provenance is damaged")
-    processes = values.get("processes", [])
-    if not (isinstance(processes, list) and all(isinstance(each, str) for each in processes)):
+    listed = [values.get(name, []) for name in ("processes", "plugins")]
+    if not all(isinstance(each, list) and all(isinstance(word, str) for word in each) for each in listed):
         raise ValueError("its provenance is damaged")
-    return Provenance(recipe, seed, version, tuple(processes))
+    return Provenance(recipe, seed, version, *map(tuple, listed))
 
 
 class _XmlReader:
@@ -152,7 +166,7 @@ class _XmlReader:
 
     def __init__(self) -> None:
         self.values: dict[str, str] = {}
-        self.processes: list[str] = []
+        self.listed: dict[str, list[str]] = {"process": [], "plugin": []}
         self._name = ""
         self._parts: list[str] = []
         self._length = 0
@@ -180,7 +194,7 @@ class _XmlReader:
             "recipe",
             "seed",
             "version",
-            "process",
+            *self.listed,
         ):
             self._name, self._parts, self._length = local, [], 0
 
@@ -197,8 +211,8 @@ class _XmlReader:
             if self._name.endswith(BASE64):
                 value = base64.b64decode(value, validate=True).decode("utf-8", "surrogatepass")
             name, self._name = self._name.removesuffix(BASE64), ""
-            if name == "process":
-                self.processes.append(value)
+            if name in self.listed:
+                self.listed[name].append(value)
                 return
             self.values[name] = value
             if len(self.values) == 3:
@@ -214,7 +228,9 @@ def _from_xml(data: bytes) -> Provenance | None:
     seed = values.get("seed", "0")
     if not re.fullmatch(r"-?[0-9]{1,4000}", seed):
         raise ValueError("its seed is no whole number")
-    return Provenance(values["recipe"], int(seed), values.get("version", ""), tuple(reader.processes))
+    return Provenance(
+        values["recipe"], int(seed), values.get("version", ""), *map(tuple, reader.listed.values())
+    )
 
 
 def _from_pdf(data: bytes) -> Provenance | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from batik_vector.fields.catalogues import Catalogue, brought_by, installed, named
 from batik_vector.fields.fitting import belongs, bound, check, given, shown
 from batik_vector.fields.marks import (
     HIDDEN,
@@ -29,6 +30,7 @@ __all__ = [
     "TAG",
     "Alone",
     "Between",
+    "Catalogue",
     "Colour",
     "Converted",
     "Instead",
@@ -43,9 +45,12 @@ __all__ = [
     "Useful",
     "belongs",
     "bound",
+    "brought_by",
     "check",
     "given",
     "hint_of",
+    "installed",
+    "named",
     "parse_colour",
     "shown",
 ]

@@ -12,6 +12,7 @@ from typing import Any, TypeVar
 
 from batik_vector._version import __version__
 from batik_vector.errors import ExportError, Fault, MissingLibraryError
+from batik_vector.fields import installed
 from batik_vector.making.pool import Failure, Outcome, tried
 
 Task = TypeVar("Task")
@@ -94,13 +95,11 @@ def _threads(client: Any, scheduler: str) -> int:
     for worker, found in sorted(versions.items()):
         if isinstance(found, OSError):
             continue
-        if found != __version__:
-            raise ExportError(
-                f"--scheduler {scheduler}: {worker} has version {found}, expected {__version__}"
-            )
+        if found != version():
+            raise ExportError(f"--scheduler {scheduler}: {worker} has version {found}, expected {version()}")
     return max(1, sum(int(count) for count in client.nthreads().values()))
 
 
 def version() -> str:
-    """Return the version of this package, as a worker has it."""
-    return __version__
+    """Return the version of this package and of its plug-ins, as a worker has them."""
+    return " with ".join([__version__, *installed()])

@@ -23,6 +23,7 @@ from batik_vector.errors import (
     UnsupportedByFormatError,
 )
 from batik_vector.export import FORMATS
+from batik_vector.fields import brought_by
 from batik_vector.machines.profile import LANGUAGES
 from batik_vector.making.destinations import Destination, check_folder, into_folders
 from batik_vector.making.facts import facts_of, page_warnings, warnings
@@ -137,6 +138,8 @@ def planned(
             if folder is not None:
                 _check_place(path, job, drawings)
             files.append((path, output))
+        if plugins := brought_by([job.recipe, *(output for _, output in files)]):
+            job = replace(job, recipe=replace(job.recipe, plugins=plugins))
         plans.append(replace(job, files=tuple(files)))
     if jobs and not faults:
         faults = [Fault(f"--{key}: no file that is made has it") for key in sorted(unused)]

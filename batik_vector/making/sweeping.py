@@ -23,6 +23,7 @@ from batik_vector.artwork import Artwork, Page
 from batik_vector.compiling.compiler import compile_recipe
 from batik_vector.errors import BatikError, Fault, RecipeError, shortened
 from batik_vector.export.files import write_all_whole
+from batik_vector.fields import installed
 from batik_vector.making.destinations import check_folder, make_folder
 from batik_vector.making.jobs import Job, planned, run
 from batik_vector.making.manifest import Made, Manifest, digest_of, picture_in
@@ -102,7 +103,15 @@ class Making:
     def key(self, variant: Variant, drawings: str = "") -> str:
         """Return what the files of a variant hang on, as a digest."""
         told = json.dumps(
-            [__version__, self.text, drawings, self.overrides, self.formats, variant.name, variant.changes]
+            [
+                " with ".join([__version__, *installed()]),
+                self.text,
+                drawings,
+                self.overrides,
+                self.formats,
+                variant.name,
+                variant.changes,
+            ]
         )
         return hashlib.sha256(told.encode()).hexdigest()[:32]
 

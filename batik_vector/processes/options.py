@@ -12,7 +12,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Annotated, Self, TypeAlias
 
 from batik_vector.errors import GeometryError
-from batik_vector.fields import Between, Length, OneOf, Says, belongs
+from batik_vector.fields import Between, Catalogue, Length, OneOf, Says, belongs, named
 from batik_vector.processes.cutting.choices import Inks, Keep, LineBodies, Narrow, Start, Turns
 from batik_vector.processes.hatching.options import AnyHatch
 from batik_vector.processes.printing.options import MisregisterProcess, SeparateProcess
@@ -280,18 +280,23 @@ class TrapProcess(ProcessSpec):
     ] = Covered.REFUSE
 
 
-PROCESSES: dict[str, type[ProcessSpec]] = {
-    each.kind: each
-    for each in (
-        PlotProcess,
-        CutProcess,
-        StencilProcess,
-        WaxProcess,
-        TrapProcess,
-        SeparateProcess,
-        MisregisterProcess,
-    )
-}
+PROCESSES: Catalogue[type[ProcessSpec]] = Catalogue(
+    "processes",
+    {
+        each.kind: each
+        for each in (
+            PlotProcess,
+            CutProcess,
+            StencilProcess,
+            WaxProcess,
+            TrapProcess,
+            SeparateProcess,
+            MisregisterProcess,
+        )
+    },
+    lambda: ProcessSpec,
+    named("kind", ProcessSpec),
+)
 """The catalogue of processes."""
 
 AnyProcess: TypeAlias = Annotated[ProcessSpec, OneOf(lambda: PROCESSES, "process")]

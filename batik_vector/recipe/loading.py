@@ -13,7 +13,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from batik_vector.errors import Fault, MachineProfileError, RecipeError
-from batik_vector.fields import given
+from batik_vector.fields import brought_by, given
 from batik_vector.recipe.drawing import Svg
 from batik_vector.recipe.model import Recipe
 from batik_vector.recipe.reading.builder import UnsureError, built
@@ -99,6 +99,8 @@ def read_recipe(
             _refuse_profile(data, source)
             raise RecipeError(placed(found, source, written, changes)) from None
         recipe = replace(found_recipe, source=text)
+    if plugins := brought_by([recipe]):
+        recipe = replace(recipe, plugins=plugins)
     return _drawn(recipe, folder, source, written, overrides)
 
 

@@ -115,6 +115,8 @@ class Recipe:
         Says("SVG drawings and machines by the names of their files; what is not here is read from there"),
     ] = field(default_factory=dict)
     source: str = field(default="", metadata={HIDDEN: True})
+    plugins: tuple[str, ...] = field(default=(), metadata={HIDDEN: True})
+    """The packages, with their versions, that brought kinds which it uses."""
 
     __pydantic_config__ = {"strict": True, "allow_inf_nan": False}  # noqa: RUF012
 
@@ -129,6 +131,12 @@ class Recipe:
         if faults:
             raise RecipeError(faults)
         self._take_dyes()
+
+    def _repr_svg_(self) -> str | None:
+        """Show the tile in a notebook, where there is one."""
+        from batik_vector.compiling.compiler import compile_recipe
+
+        return compile_recipe(self)._repr_svg_() if self.tile is not None else None
 
     def _take_colours(self) -> None:
         """Make inks of the colours that drawings keep: of each that no ink has, one called after it."""

@@ -8,13 +8,11 @@ of, bottom first, and all that follows (sampling, filling, laying out) is the sa
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterator, Mapping
 from dataclasses import field
-from importlib import import_module
 from typing import Annotated, TypeAlias
 
 from batik_vector.errors import GeometryError, unknown_name
-from batik_vector.fields import Between, Says, Useful, check
+from batik_vector.fields import Between, Catalogue, Says, Useful, check
 from batik_vector.geometry.curves import (
     Circle,
     Hypocycloid,
@@ -218,57 +216,39 @@ class PathMotif(Dress):
         return ("",)
 
 
-class Kinds(Mapping[str, type]):
-    """Kinds of motifs by name; one told as "file.Class" of the room ``motifs`` is imported when asked for."""
-
-    def __init__(self, homes: Mapping[str, type | str]) -> None:
-        self.homes = dict(homes)
-
-    def __getitem__(self, name: str) -> type:
-        home = self.homes[name]
-        if isinstance(home, str):
-            file, _, cls = home.partition(".")
-            home = self.homes[name] = getattr(import_module(f"batik_vector.recipe.motifs.{file}"), cls)
-        return home
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self.homes)
-
-    def __len__(self) -> int:
-        return len(self.homes)
-
-
-MOTIFS: Mapping[str, type] = Kinds(
+MOTIFS: Catalogue[type] = Catalogue(
+    "motifs",
     {
         "flower": Flower,
         "rosette": Rosette,
         "path": PathMotif,
         "svg": Svg,
         "lsystem": Grown,
-        "butterfly": "butterfly.ButterflyMotif",
-        "polar-butterfly": "butterfly.PolarButterfly",
-        "fish": "fish.Fish",
-        "bird": "bird.Bird",
-        "chrysanthemum": "blossoms.Chrysanthemum",
-        "sunflower": "blossoms.Sunflower",
-        "lotus": "upright.Lotus",
-        "peach": "upright.Peach",
-        "cockscomb": "upright.Cockscomb",
-        "leaf": "leaf.LeafMotif",
-        "vine": "vine.Vine",
-        "parang": "parang.Parang",
-        "lereng": "lereng.Lereng",
-        "miao-band": "lereng.MiaoBand",
-        "tumpal": "tumpal.Tumpal",
-        "pucuk-rebung": "tumpal.PucukRebung",
-        "kawung": "squares.Kawung",
-        "truntum": "squares.Truntum",
-        "ceplok": "squares.Ceplok",
-        "jlamprang": "squares.Jlamprang",
-        "nitik": "nitik.Nitik",
-        "mega-mendung": "cloud.MegaMendung",
-        "buketan": "bouquet.Buketan",
-    }
+        "butterfly": "batik_vector.recipe.motifs.butterfly:ButterflyMotif",
+        "polar-butterfly": "batik_vector.recipe.motifs.butterfly:PolarButterfly",
+        "fish": "batik_vector.recipe.motifs.fish:Fish",
+        "bird": "batik_vector.recipe.motifs.bird:Bird",
+        "chrysanthemum": "batik_vector.recipe.motifs.blossoms:Chrysanthemum",
+        "sunflower": "batik_vector.recipe.motifs.blossoms:Sunflower",
+        "lotus": "batik_vector.recipe.motifs.upright:Lotus",
+        "peach": "batik_vector.recipe.motifs.upright:Peach",
+        "cockscomb": "batik_vector.recipe.motifs.upright:Cockscomb",
+        "leaf": "batik_vector.recipe.motifs.leaf:LeafMotif",
+        "vine": "batik_vector.recipe.motifs.vine:Vine",
+        "parang": "batik_vector.recipe.motifs.parang:Parang",
+        "lereng": "batik_vector.recipe.motifs.lereng:Lereng",
+        "miao-band": "batik_vector.recipe.motifs.lereng:MiaoBand",
+        "tumpal": "batik_vector.recipe.motifs.tumpal:Tumpal",
+        "pucuk-rebung": "batik_vector.recipe.motifs.tumpal:PucukRebung",
+        "kawung": "batik_vector.recipe.motifs.squares:Kawung",
+        "truntum": "batik_vector.recipe.motifs.squares:Truntum",
+        "ceplok": "batik_vector.recipe.motifs.squares:Ceplok",
+        "jlamprang": "batik_vector.recipe.motifs.squares:Jlamprang",
+        "nitik": "batik_vector.recipe.motifs.nitik:Nitik",
+        "mega-mendung": "batik_vector.recipe.motifs.cloud:MegaMendung",
+        "buketan": "batik_vector.recipe.motifs.bouquet:Buketan",
+    },
+    lambda: Composed,
 )
 """The catalogue of kinds: each has ``parts()``, and ``keys()`` that say where these stand in its table."""
 

@@ -19,7 +19,7 @@ from batik_vector.export.options import (
     SwatchOptions,
     TiffOptions,
 )
-from batik_vector.fields import HIDDEN, Alone, Between, Length, OneOf, Says, Text, check
+from batik_vector.fields import HIDDEN, Alone, Between, Catalogue, Length, OneOf, Says, Text, check, named
 from batik_vector.machines.profile import Machine
 from batik_vector.processes.options import AnyProcess
 from batik_vector.processes.printing.options import PlateColour, SeparateProcess
@@ -57,10 +57,16 @@ def parse_file_word(text: str) -> str:
 
 @frozen(kw_only=True)
 class OutputSpec:
-    """A file to write. Each format has a class of its own in ``OUTPUTS``, with the options of its writer."""
+    """A file to write. Each format has a class of its own in ``OUTPUTS``, with the options of its writer.
+
+    That of a plug-in says of its format, too, what ``FORMATS`` says of the program's: its ``suffix``, and the
+    ``module`` that writes it.
+    """
 
     format: ClassVar[str] = ""
     writer: ClassVar[type] = object
+    suffix: ClassVar[str] = ""
+    module: ClassVar[str] = ""
 
     name: Annotated[
         str,
@@ -220,21 +226,26 @@ class AseOutput(OutputSpec, PaletteOptions):
     writer = PaletteOptions
 
 
-OUTPUTS: dict[str, type[OutputSpec]] = {
-    output.format: output
-    for output in (
-        SvgOutput,
-        PdfOutput,
-        DxfOutput,
-        HpglOutput,
-        GcodeOutput,
-        PngOutput,
-        TiffOutput,
-        SwatchOutput,
-        GplOutput,
-        AseOutput,
-    )
-}
+OUTPUTS: Catalogue[type[OutputSpec]] = Catalogue(
+    "formats",
+    {
+        output.format: output
+        for output in (
+            SvgOutput,
+            PdfOutput,
+            DxfOutput,
+            HpglOutput,
+            GcodeOutput,
+            PngOutput,
+            TiffOutput,
+            SwatchOutput,
+            GplOutput,
+            AseOutput,
+        )
+    },
+    lambda: OutputSpec,
+    named("format", OutputSpec),
+)
 """The catalogue of formats that a recipe may ask for."""
 
 AnyOutput: TypeAlias = Annotated[OutputSpec, OneOf(lambda: OUTPUTS, "output", tag="format")]

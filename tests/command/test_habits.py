@@ -58,6 +58,16 @@ def test_a_recipe_comes_from_stdin_and_the_file_goes_to_stdout() -> None:
     assert names() == ["dot.dxf", "dot.svg", "dot.toml", "recipe.svg"]
 
 
+def test_a_compiled_file_comes_from_stdin() -> None:
+    plain = call("compile", "-", "-o", "-", "-f", "svg", stdin=RECIPE).stdout_bytes
+    for kind in ("svg", "pdf", "dxf", "png", "gcode"):
+        made = call("compile", "-", "-o", "-", "-f", kind, stdin=RECIPE).stdout_bytes
+        assert call("compile", "-", "-o", "-", "-f", "svg", stdin=made).stdout_bytes == plain
+    assert "stdin: carries no recipe" in call("compile", "-", stdin="<svg/>", code=2).stderr
+    cut = call("compile", "-", "-o", "-", "-f", "pdf", stdin=RECIPE).stdout_bytes[:200]
+    assert "stdin: is no readable PDF" in call("compile", "-", stdin=cut, code=2).stderr
+
+
 def test_faults_of_stdin_are_told_with_their_line() -> None:
     told = call("compile", "-", stdin=RECIPE.replace("radius = 4", "radius = -4"), code=2).stderr
     assert "stdin:4: motif.dot.elements[0].curve.radius: -4, expected" in told

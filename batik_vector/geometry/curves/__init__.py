@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from batik_vector.fields import Catalogue
 from batik_vector.geometry.curves.attractor import Attractor, AttractorMap
 from batik_vector.geometry.curves.base import Curve, FunctionCurve, OutlineCurve
 from batik_vector.geometry.curves.blade import Blade
@@ -25,33 +26,37 @@ from batik_vector.geometry.curves.superellipse import Superellipse
 from batik_vector.geometry.curves.tracing import Trace, trace
 from batik_vector.geometry.curves.wave import Wave
 
-CURVES: dict[str, type[Curve]] = {
-    "superellipse": Superellipse,
-    "rose": Rose,
-    "petal": Petal,
-    "hypocycloid": Hypocycloid,
-    "circle": Circle,
-    "blade": Blade,
-    "butterfly": Butterfly,
-    "polygon": Polygon,
-    "star": Star,
-    "polar": Polar,
-    "parametric": Parametric,
-    "spiral": Spiral,
-    "segment": Segment,
-    "wave": Wave,
-    "path": PathCurve,
-    "points": PointsCurve,
-    "lsystem": LSystem,
-    "fractal": Fractal,
-    "kronecker": Kronecker,
-    "automaton": Automaton,
-    "fourier": Fourier,
-    "attractor": Attractor,
-    "julia": Julia,
-    "mandelbrot": Mandelbrot,
-    "shape-grammar": ShapeGrammar,
-}
+CURVES: Catalogue[type[Curve]] = Catalogue(
+    "curves",
+    {
+        "superellipse": Superellipse,
+        "rose": Rose,
+        "petal": Petal,
+        "hypocycloid": Hypocycloid,
+        "circle": Circle,
+        "blade": Blade,
+        "butterfly": Butterfly,
+        "polygon": Polygon,
+        "star": Star,
+        "polar": Polar,
+        "parametric": Parametric,
+        "spiral": Spiral,
+        "segment": Segment,
+        "wave": Wave,
+        "path": PathCurve,
+        "points": PointsCurve,
+        "lsystem": LSystem,
+        "fractal": Fractal,
+        "kronecker": Kronecker,
+        "automaton": Automaton,
+        "fourier": Fourier,
+        "attractor": Attractor,
+        "julia": Julia,
+        "mandelbrot": Mandelbrot,
+        "shape-grammar": ShapeGrammar,
+    },
+    lambda: Curve,
+)
 
 __all__ = [
     "CURVES",

@@ -2,29 +2,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Annotated, TypeAlias
 
-from batik_vector.fields import OneOf
+from batik_vector.fields import Catalogue, OneOf, named
 from batik_vector.recipe.fills.base import Fill, Room
 from batik_vector.recipe.fills.lines import Contours, Follow, Galaran, Hatching, Sawut, Sisik, VeinLines
 from batik_vector.recipe.fills.marks import CacahGori, Cecek, Herangan, Rows, Ukel
 
-FILLS: Mapping[str, type[Fill]] = {
-    each.kind: each
-    for each in (
-        Cecek,
-        Sawut,
-        Galaran,
-        Ukel,
-        Sisik,
-        CacahGori,
-        Herangan,
-        Contours,
-        VeinLines,
-        Hatching,
-    )
-}
+FILLS: Catalogue[type[Fill]] = Catalogue(
+    "fills",
+    {
+        each.kind: each
+        for each in (
+            Cecek,
+            Sawut,
+            Galaran,
+            Ukel,
+            Sisik,
+            CacahGori,
+            Herangan,
+            Contours,
+            VeinLines,
+            Hatching,
+        )
+    },
+    lambda: Fill,
+    named("kind", Fill),
+)
 """The catalogue of fills."""
 
 AnyFill: TypeAlias = Annotated[Fill, OneOf(lambda: FILLS, "fill")]

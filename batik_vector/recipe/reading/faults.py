@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from batik_vector.errors import Fault, RecipeError, unknown_name
-from batik_vector.fields import TAG
+from batik_vector.fields import TAG, Catalogue, OneOf
 from batik_vector.recipe.reading.field_types import Hint, chosen, expected, members, span
 from batik_vector.recipe.reading.lines import parse_path
 from batik_vector.recipe.references import Path, dotted
@@ -158,9 +158,18 @@ def _tag(spot: _Spot) -> Found:
     if tag not in spot.value:
         return _found(spot, f"no {what}: expected {tag} = one of {', '.join(known)}")
     written = spot.value[tag]
-    words = unknown_name(written, known, what) if isinstance(written, str) else ""
+    words = _unknown(written, one_of, what) if isinstance(written, str) else ""
     path = (*spot.path, tag)
     return Found(path, Fault(words or f"{shown(written)}, expected one of {', '.join(known)}", dotted(path)))
+
+
+def _unknown(written: str, one_of: OneOf, what: str) -> str:
+    """Return what is wrong with a name of a catalogue: it is unknown, or its plug-in is broken."""
+    catalogue = one_of.load()
+    broken = catalogue.broken.get(written) if isinstance(catalogue, Catalogue) else None
+    if broken:
+        return f"{what} {shown(written)}: its plug-in is passed over, {broken}"
+    return unknown_name(written, list(catalogue), what)
 
 
 def _raised(raised: Exception, spot: _Spot) -> list[Found]:

@@ -11,9 +11,13 @@ import tomllib
 from collections.abc import Mapping
 from importlib import import_module
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from batik_vector.errors import Fault, RecipeError
 from batik_vector.recipe.references import quoted
+
+if TYPE_CHECKING:
+    from batik_vector.artwork import Provenance
 
 MAX_TEXT = 1 << 20
 """Bytes of a recipe. The longest by hand has some thousands."""
@@ -60,12 +64,19 @@ def read_text(path: str | os.PathLike[str]) -> str:
 
 
 def read_stdin() -> str:
-    """Return the text of a recipe from standard input.
+    """Return the text of a recipe from standard input, which may hold a file that was compiled from it, too.
 
     Raises:
         RecipeError: where it holds none.
     """
     data = b"" if sys.stdin is None else sys.stdin.buffer.read(MAX_TEXT + 1)
+    from batik_vector.export.provenance import is_made, provenance_in
+
+    if is_made(data):
+        data += sys.stdin.buffer.read(MAX_COMPILED + 1 - len(data))
+        if len(data) > MAX_COMPILED:
+            raise _fault(f"more than {MAX_COMPILED:,} bytes, expected a compiled file", "stdin")
+        return _carried(provenance_in(data, Path("stdin")), "stdin")
     if len(data) > MAX_TEXT:
         raise _fault(f"more than {MAX_TEXT:,} bytes, expected a recipe", "stdin")
     return decoded(data, "stdin")
@@ -93,15 +104,17 @@ def is_compiled(source: str | os.PathLike[str]) -> bool:
 def _from_compiled(path: str | os.PathLike[str]) -> str:
     from batik_vector.export.provenance import read_provenance
 
-    text = read_provenance(Path(path)).recipe
-    if not text:
-        raise _fault("was made from Python and carries no recipe", os.fspath(path))
-    own, _ = parted(text)
+    return _carried(read_provenance(Path(path)), os.fspath(path))
+
+
+def _carried(told: Provenance, source: str) -> str:
+    """Return the recipe that a compiled file carries."""
+    if not told.recipe:
+        raise _fault("was made from Python and carries no recipe", source)
+    own, _ = parted(told.recipe)
     if len(own) > MAX_TEXT:
-        raise _fault(
-            f"its recipe has {len(own):,} characters, expected at most {MAX_TEXT:,}", os.fspath(path)
-        )
-    return text
+        raise _fault(f"its recipe has {len(own):,} characters, expected at most {MAX_TEXT:,}", source)
+    return told.recipe
 
 
 def _from_text(path: str | os.PathLike[str], source: str) -> str:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import Annotated, TypeAlias
 
-from batik_vector.fields import OneOf
+from batik_vector.fields import Catalogue, OneOf
 from batik_vector.tiling.layouts.base import Bend, Layout, Pair, Share
 from batik_vector.tiling.layouts.copies import (
     Free,
@@ -32,27 +32,31 @@ from batik_vector.tiling.layouts.named import (
 )
 from batik_vector.tiling.layouts.systems import Julian, MapSpec, System, Term
 
-LAYOUTS: dict[str, type[Layout]] = {
-    "single": Single,
-    "julian": Julian,
-    "symmetric": Symmetric,
-    "double-square": DoubleSquare,
-    "four-square": FourSquare,
-    "three-circle": ThreeCircle,
-    "five-circle": FiveCircle,
-    "circle": Circle,
-    "ring": Ring,
-    "mirror": Mirror,
-    "rosette": RosetteLayout,
-    "free": Free,
-    "places": Places,
-    "lattice": Lattice,
-    "toss": Toss,
-    "pack": Pack,
-    "ground": FreeGround,
-    "stripes": Stripes,
-    "ifs": System,
-}
+LAYOUTS: Catalogue[type[Layout]] = Catalogue(
+    "layouts",
+    {
+        "single": Single,
+        "julian": Julian,
+        "symmetric": Symmetric,
+        "double-square": DoubleSquare,
+        "four-square": FourSquare,
+        "three-circle": ThreeCircle,
+        "five-circle": FiveCircle,
+        "circle": Circle,
+        "ring": Ring,
+        "mirror": Mirror,
+        "rosette": RosetteLayout,
+        "free": Free,
+        "places": Places,
+        "lattice": Lattice,
+        "toss": Toss,
+        "pack": Pack,
+        "ground": FreeGround,
+        "stripes": Stripes,
+        "ifs": System,
+    },
+    lambda: Layout,
+)
 
 AnyLayout: TypeAlias = Annotated[Layout, OneOf(lambda: LAYOUTS, "layout")]
 
