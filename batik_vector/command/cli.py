@@ -43,6 +43,7 @@ KINDS = (
     "kawung",
     "mega-mendung",
     "own-drawing",
+    "parang",
     "rosette",
     "toss",
     "truntum",
