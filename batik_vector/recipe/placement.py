@@ -137,8 +137,8 @@ class Placement:
             return
         if not (self.motifs and self.layout.deals):
             raise GeometryError(
-                f"motif = {self._listed()}: only a toss or a pack mixes several, and only rings, lattices and "
-                "the paper's layouts deal their places out in turn, expected one"
+                f"motif = {self._listed()}: only a toss or a pack mixes several, and only rings, lattices "
+                "and the paper's layouts deal their places out in turn, expected one"
             )
         if self.scale is None:
             raise GeometryError(
