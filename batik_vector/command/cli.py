@@ -16,6 +16,7 @@ from typing import Any
 import click
 
 from batik_vector._version import __version__
+from batik_vector.command.batify import batify_command
 from batik_vector.command.compile import compile_command
 from batik_vector.command.drawings import export_motif_command, import_command
 from batik_vector.command.installed_plugins import broken, plugins_command
@@ -256,6 +257,7 @@ for _command in (
     colourways_command,
     sweep_command,
     random_command,
+    batify_command,
     import_command,
     export_motif_command,
     library_command,

@@ -18,7 +18,7 @@ from batik_vector.geometry.maps.affine import Affine
 from batik_vector.geometry.maps.affines import Affines
 from batik_vector.geometry.regions import oriented, polygonal
 from batik_vector.geometry.sampling import Array, Geometries, Indices
-from batik_vector.recipe.drawing import Part
+from batik_vector.recipe.drawing import Part, Svg
 from batik_vector.recipe.figures import Figure
 from batik_vector.recipe.fills import Fill, Room
 from batik_vector.recipe.look import Dress, Treatment
@@ -73,12 +73,17 @@ def filled(
     if not has_fills(motif, work.placement):
         return list(figures)
     found, over, count = list[Figure](), np.empty(0, dtype=object), 0
+    bare, laid = dict[Fill, GeometryError](), set[Fill]()
     scale, drawn = float(copies.stretches.max()), len(copies) * times
     for figure, key in zip(reversed(figures), reversed(motif.keys()), strict=True):
         fill, own = _fill_of(figure.element, work.placement)
         if fill is not None and len(figure.areas):
             where = ".".join(filter(None, ("motif", name, key, "fill_with"))) if own else "fill_with"
-            isen = _isen(figure, fill, over, where, own, scale, work)
+            isen = _isen(figure, fill, over, where, scale, work)
+            if len(isen.areas):
+                laid.add(fill)
+            elif own and not fill.may_be_none:
+                bare.setdefault(fill, GeometryError(_empty_in(figure, fill, where, scale)))
             count += int(shapely.get_num_coordinates(isen.areas).sum())
             if count * drawn > work.limit:
                 raise TooLargeError(
@@ -88,6 +93,10 @@ def filled(
             found += [isen] if len(isen.areas) else []
         found.append(figure)
         over = np.concatenate([over, _hiding(figure, scale, work)])
+    # What means several marks of a drawing may find no room in some of them.
+    for fill, error in bare.items():
+        if not (isinstance(motif, Svg) and fill in laid):
+            raise error
     if work.placement.fill_with is not None and len(found) == len(figures):
         raise GeometryError(_empty(work.placement.fill_with, "fill_with", "any element of the motif", 0.0))
     return found[::-1]
@@ -100,9 +109,7 @@ def _fill_of(element: Dress, placement: Placement) -> tuple[Fill | None, bool]:
     return (None if element.treatment == Treatment.CUT else placement.fill_with), False
 
 
-def _isen(
-    figure: Figure, fill: Fill, over: Geometries, where: str, own: bool, scale: float, work: Work
-) -> Figure:
+def _isen(figure: Figure, fill: Fill, over: Geometries, where: str, scale: float, work: Work) -> Figure:
     """Return the marks of one element as a figure."""
     areas = Affine.scale(scale).apply(figure.areas)
     frames = Affines(figure.frames.rows * np.array([1, 1, 1, 1, scale, scale]))
@@ -112,11 +119,13 @@ def _isen(
         marks = _laid(fill, regions, frames.taken(of), work)
     except TooLargeError as error:
         raise TooLargeError(f"{where}.{error}") from None
-    if own and not len(marks):
-        depth = shapely.length(shapely.maximum_inscribed_circle(areas)).max()
-        raise GeometryError(_empty(fill, where, figure.element.name or "the element", float(depth)))
     look = _look(figure.element, fill, where, work)
     return Figure(look, Affine.scale(1 / scale).apply(marks), figure.lines[:0])
+
+
+def _empty_in(figure: Figure, fill: Fill, where: str, scale: float) -> str:
+    depth = scale * shapely.length(shapely.maximum_inscribed_circle(figure.areas)).max()
+    return _empty(fill, where, figure.element.name or "the element", float(depth))
 
 
 def _empty(fill: Fill, where: str, what: str, depth: float) -> str:
@@ -150,10 +159,10 @@ def _seen(
 
     What two of the areas share belongs to neither.
     """
-    hiding = [*body, *over]
+    hiding = _near(np.concatenate([body, over]), areas)
     left = np.array(areas, dtype=object)
-    if hiding:
-        left = shapely.difference(left, shapely.union_all(np.array(hiding, dtype=object)))
+    if len(hiding):
+        left = shapely.difference(left, shapely.union_all(hiding))
     a, b = shapely.STRtree(areas).query(areas)
     pairs = a != b
     shared = shapely.area(shapely.intersection(areas[a[pairs]], areas[b[pairs]])) > CRUMB
@@ -162,6 +171,16 @@ def _seen(
     parts, of = shapely.get_parts(left, return_index=True)
     solid = (shapely.get_type_id(parts) == shapely.GeometryType.POLYGON) & (shapely.area(parts) > CRUMB)
     return oriented(parts[solid]), frame[of[solid]]
+
+
+def _near(marks: Geometries, areas: Geometries) -> Geometries:
+    """Return those of some marks whose boxes meet the box of areas: drawings have thousands."""
+    if not len(marks) or not len(areas):
+        return marks[:0]
+    left, low, right, high = shapely.total_bounds(areas)
+    box = shapely.bounds(marks)
+    off = (box[:, 0] > right) | (box[:, 2] < left) | (box[:, 1] > high) | (box[:, 3] < low)
+    return np.asarray(marks[~off], dtype=object)
 
 
 def _body(figure: Figure, scale: float, work: Work) -> Geometries:

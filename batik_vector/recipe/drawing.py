@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 from batik_vector.errors import Fault, GeometryError, RecipeError
 from batik_vector.fields import HIDDEN, Between, Colour, Converted, Length, Names, Says, check
-from batik_vector.recipe.fills import AnyFill
+from batik_vector.recipe.fills import AnyFill, Isen, Style
 from batik_vector.recipe.look import Dress, Treatment
 from batik_vector.values import frozen
 
@@ -117,6 +117,8 @@ class Svg(Look):
     bare what is drawn. Elements go by their ids and by the labels of Inkscape, Affinity and Illustrator, and
     are picked by the names of their groups too. A first shape as large as the page is taken as the ground
     and left out. With ``colours`` what lies higher cuts what lies beneath, as it shows in the drawing.
+    With ``batik`` all that is filled has isen, chosen by its size and depth on cloth, and the line round it is
+    as broad as its ink; a ``fill_with`` of its own, or of a dress, goes before.
 
     Text, pictures, gradients, patterns, clips, masks and filters are refused where they are picked, each with
     the way to an outline of one colour. A compiled file carries what was picked, and compiles from itself
@@ -132,6 +134,12 @@ class Svg(Look):
         bool,
         Says("whether each colour is an ink: the recipe's of that colour, or else one called after it"),
     ] = False
+    batik: Annotated[
+        Style | None,
+        Says(
+            "hand that makes it batik: isen in all that is filled, outlines of a canting's width; none if unset"
+        ),
+    ] = None
     dress: Annotated[tuple[Dressing, ...], Says("looks of some of the marks")] = ()
     centre: Annotated[
         str, Says('what lies in the origin: "drawn", the middle of all that is drawn; "page"; or an element')
@@ -249,6 +257,9 @@ class Svg(Look):
     def _look(self, mark: Mark, colour: str) -> Look:
         """Return the look of a mark's fill or stroke."""
         look: Look = self
+        if self.batik is not None:
+            line = Treatment.STROKE if mark.fill and mark.fill != colour else None
+            look = self.over(Look(treatment=line, fill_with=Isen(style=self.batik)))
         for each in self.dress:
             meant = mark.called.meant(several(each.elements), several(each.layer))
             if meant and each.colour in (None, colour):

@@ -135,8 +135,10 @@ def scales(
     bare, half = 1.4 * width, spacing / 2
     radius = half - bare * (bare + spacing) / (2 * bare + spacing)
     near = inset(Parts(parts.shapes, parts.region), margin + width / 2)
-    wide = Parts(np.asarray(shapely.buffer(near.shapes, spacing, quad_segs=4), dtype=object), near.region)
-    centres, part = lattice(wide, angle, spacing, spacing / 2)
+    # What GEOS makes broader has now and then a crumb beside it.
+    wide, of = shapely.get_parts(shapely.buffer(near.shapes, spacing, quad_segs=4), return_index=True)
+    centres, part = lattice(Parts(wide, near.region[of]), angle, spacing, spacing / 2)
+    part = of[part]
     count = chords(radius, tolerance) // 2
     bow = np.pi * np.linspace(0, 1, count + 1)
     arc = placed(radius * np.cos(bow), radius * np.sin(bow), angle)

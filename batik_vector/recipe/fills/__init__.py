@@ -6,6 +6,7 @@ from typing import Annotated, TypeAlias
 
 from batik_vector.fields import Catalogue, OneOf, named
 from batik_vector.recipe.fills.base import Fill, Room
+from batik_vector.recipe.fills.isen import Isen, Style
 from batik_vector.recipe.fills.lines import Contours, Follow, Galaran, Hatching, Sawut, Sisik, VeinLines
 from batik_vector.recipe.fills.marks import CacahGori, Cecek, Herangan, Rows, Ukel
 
@@ -24,6 +25,7 @@ FILLS: Catalogue[type[Fill]] = Catalogue(
             Contours,
             VeinLines,
             Hatching,
+            Isen,
         )
     },
     lambda: Fill,
@@ -44,10 +46,12 @@ __all__ = [
     "Galaran",
     "Hatching",
     "Herangan",
+    "Isen",
     "Room",
     "Rows",
     "Sawut",
     "Sisik",
+    "Style",
     "Ukel",
     "VeinLines",
 ]

@@ -54,6 +54,8 @@ class Fill:
     """Marks in a square of the spacing, about."""
     whole: ClassVar[bool] = True
     """Whether a mark that something above would cut is left out instead."""
+    may_be_none: ClassVar[bool] = False
+    """Whether an element in which nothing has room is left plain, and no fault."""
 
     ink: Annotated[
         str,
