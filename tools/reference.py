@@ -35,7 +35,7 @@ from batik_vector.processes.options import PROCESSES
 from batik_vector.recipe.border import BorderSpec, Corner, Ends, Facing, RailSpec
 from batik_vector.recipe.colourways import ColourwaySpec
 from batik_vector.recipe.drawing import Dressing, Svg
-from batik_vector.recipe.fills import FILLS, Follow, Rows
+from batik_vector.recipe.fills import FILLS, Follow, Rows, Style
 from batik_vector.recipe.lsystem import Grown, Growth
 from batik_vector.recipe.model import ClothSpec, InkSpec, Placement, Recipe, YardageSpec
 from batik_vector.recipe.motif import (
@@ -284,6 +284,7 @@ def page() -> str:
     lines += catalogue("Fills", "`kind` of `fill_with` of an element or a placement", FILLS)
     lines += words("follow (of lines)", Follow)
     lines += words("follow (of dots and crosses)", Rows)
+    lines += words("style (of isen), batik (of a drawing)", Style)
     lines += catalogue("Curves", "`kind` of the `curve` of an element", CURVES)
     lines += words("system (of a fractal)", FractalName)
     lines += words("map (of an attractor)", AttractorMap)

@@ -117,8 +117,8 @@ class Svg(Look):
     bare what is drawn. Elements go by their ids and by the labels of Inkscape, Affinity and Illustrator, and
     are picked by the names of their groups too. A first shape as large as the page is taken as the ground
     and left out. With ``colours`` what lies higher cuts what lies beneath, as it shows in the drawing.
-    With ``batik`` all that is filled has isen, chosen by its size and depth on cloth, and the line round it is
-    as broad as its ink; a ``fill_with`` of its own, or of a dress, goes before.
+    With ``batik`` all that is filled has isen, chosen by its size and depth on cloth, and the line round it
+    is as broad as its ink; a ``fill_with`` of its own, or of a dress, goes before.
 
     Text, pictures, gradients, patterns, clips, masks and filters are refused where they are picked, each with
     the way to an outline of one colour. A compiled file carries what was picked, and compiles from itself
@@ -136,9 +136,7 @@ class Svg(Look):
     ] = False
     batik: Annotated[
         Style | None,
-        Says(
-            "hand that makes it batik: isen in all that is filled, outlines of a canting's width; none if unset"
-        ),
+        Says("hand that makes it batik: isen in what is filled, outlines as broad as the ink; none if unset"),
     ] = None
     dress: Annotated[tuple[Dressing, ...], Says("looks of some of the marks")] = ()
     centre: Annotated[

@@ -70,6 +70,8 @@ def cells_of(marks: Sequence[Mark], scale: float) -> Cells:
         raise GeometryError(
             f"{nodes:,} nodes, expected at most {MOST_NODES:,}: simplify it first (Inkscape: Path → Simplify)"
         )
+    if len(marks) > MOST_CELLS:
+        raise _picture(len(marks))
     larger = Affine.scale(scale)
     painted = list(_painted(marks, scale))
     areas = [(larger.apply(shapes), colour, name) for shapes, colour, name in painted]
@@ -100,13 +102,17 @@ def _picture(count: int) -> GeometryError:
 def _painted(marks: Sequence[Mark], scale: float) -> Iterator[tuple[Geometries, str, str]]:
     """Yield what each mark covers, bottom first, its colour and its name: fills, and broad strokes."""
     shapes = Shapes(marks, FINE / scale)
+    filled = [number for number, mark in enumerate(marks) if mark.fill]
+    broad = [number for number, mark in enumerate(marks) if mark.stroke and mark.width * scale >= BROAD]
+    found: dict[tuple[int, bool], Geometries] = {}
+    for which, taken, line in ((filled, shapes.regions, False), (broad, shapes.bodies, True)):
+        areas, owner = taken(which) if which else (np.empty(0, dtype=object), np.empty(0, np.intp))
+        ends = np.searchsorted(owner, np.arange(len(marks) + 1))
+        found |= {(number, line): areas[ends[number] : ends[number + 1]] for number in which}
     for number, mark in enumerate(marks):
-        own = []
-        if mark.fill:
-            own.append((shapes.regions([number])[0], mark.fill, mark.name))
-        if mark.stroke and mark.width * scale >= BROAD:
-            own.append((shapes.bodies([number])[0], mark.stroke, mark.name))
-        yield from own[::-1] if mark.stroke_first else own
+        for line in (True, False) if mark.stroke_first else (False, True):
+            if len(found.get((number, line), ())):
+                yield found[number, line], mark.stroke if line else mark.fill, mark.name
 
 
 def _thin(marks: Sequence[Mark], scale: float) -> Geometries:
