@@ -16,9 +16,8 @@ from typing import Any
 import click
 
 from batik_vector._version import __version__
-from batik_vector.command.batify import batify_command
 from batik_vector.command.compile import compile_command
-from batik_vector.command.drawings import export_motif_command, import_command
+from batik_vector.command.drawings import batify_command, export_motif_command, import_command
 from batik_vector.command.installed_plugins import broken, plugins_command
 from batik_vector.command.library import library_command
 from batik_vector.command.made_files import called

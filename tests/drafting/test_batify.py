@@ -12,8 +12,8 @@ import shapely
 from batik_vector import Artwork, compile_recipe, read_recipe
 from batik_vector.artwork import violations
 from batik_vector.certificate import certify
-from batik_vector.command.batify import STYLES
 from batik_vector.command.cli import cli
+from batik_vector.command.drawings import STYLES
 from batik_vector.drafting.batik.batify import Batik, batified
 from batik_vector.drafting.batik.hands import HANDS
 from batik_vector.errors import BatikError, UnknownNameError

@@ -73,6 +73,7 @@ BEYOND = {
     *(
         "an ink in parts of one",
         "a colourway of an ink that is not",
+        "isen too bold for the marks it may choose",
         "an unknown palette",
         "a colourway of an unknown palette",
         "a colourway of nothing",
