@@ -190,12 +190,19 @@ def _check_prepared(
     """Measure a drawing that went through processes, and compare it with its recipe gone through the same."""
     tile = compile_recipe(recipe, progress=tell)
     tell("measuring")
-    promise, kept = promised_prepared(recipe, tile, reading, read_processes(processes))
+    specs = read_processes(processes)
+    promise, kept = promised_prepared(recipe, tile, reading, specs)
     reading, promise = _as_promised(source, reading, promise)
-    certificate = _certified(source, reading.artwork if kept else tile, wishes, asked_group(recipe))
+    asked = asked_group(recipe)
     notes = [*reading.notes, *_left_aside(wishes), f"went through {', then '.join(processes)}"]
     if not kept:
         notes[-1] += ": the tile that it was made of was measured"
+    elif asked is not None and (free := [each.kind for each in specs if not each.keeps_group]):
+        notes.append(
+            f"{' and '.join(free)} leave nothing twice alike: {asked.name} is not asked of it any more"
+        )
+        asked = None
+    certificate = _certified(source, reading.artwork if kept else tile, wishes, asked)
     found = _drawing_found(source, reading, certificate, promise, notes)
     # Overcuts, pre-cuts and tabs are open and drawn again on purpose: a machine is asked of the pattern.
     return found if kept else replace(found, pattern=tile)

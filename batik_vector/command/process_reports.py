@@ -125,6 +125,17 @@ def _misregister(facts: Facts) -> Iterator[str]:
     yield f"{shows} between inks"
 
 
+def _crackle(facts: Facts) -> Iterator[str]:
+    size = format_mm(round(facts["piece_mm"], 2))
+    waxed = f"{facts['dyed']:.1%} of {facts['waxed_mm2'] / 100:,.1f} cm² that were waxed"
+    cracks = _counted(facts["cracks"], "crack", "cracks")
+    yield f"{cracks}, pieces of {size} mm on average; {facts['dye']} takes {waxed}"
+
+
+def _hand(facts: Facts) -> Iterator[str]:
+    yield f"drawn by hand: places are off by up to {format_mm(facts['most_mm'])} mm"
+
+
 def _cuts(facts: Facts) -> str:
     if not facts["contours"]:
         return "nothing is left to cut"
@@ -174,5 +185,7 @@ _TOLD: dict[str, Callable[[Facts], Iterator[str]]] = {
     "trap": _trap,
     "separate": _separate,
     "misregister": _misregister,
+    "hand": _hand,
+    "crackle": _crackle,
 }
 """What tells of each process, by its kind."""

@@ -34,13 +34,16 @@ def inked(page: Page, ink: Ink, areas: Outlines, lines: Outlines) -> Geometries:
     return np.concatenate([filled, repeated_into(page.cell, bodies) if tile else bodies])
 
 
-def repeated_into(cell: Cell, marks: Geometries) -> Geometries:
-    """Return marks (steps) with those of their repeats that come into the cell."""
+def repeated_into(cell: Cell, marks: Geometries, margin: int = 0) -> Geometries:
+    """Return marks (steps) with those of their repeats that come into the cell grown by a margin."""
     if not len(marks):
         return marks
     (ax, ay), (bx, by) = cell.lattice
     left, bottom, right, top = shapely.total_bounds(marks).tolist()
-    far = math.ceil(max(-left, right - ax, 0) / ax), math.ceil(max(-bottom, top - by, 0) / by)
+    far = (
+        math.ceil((max(-left, right - ax, 0) + margin) / ax),
+        math.ceil((max(-bottom, top - by, 0) + margin) / by),
+    )
     found = [marks]
     bounds = shapely.bounds(marks)
     for i in range(-far[0] - 1, far[0] + 2):
@@ -49,7 +52,8 @@ def repeated_into(cell: Cell, marks: Geometries) -> Geometries:
             if x == y == 0:
                 continue
             low, high = bounds[:, :2] + (x, y), bounds[:, 2:] + (x, y)
-            near = (low < (cell.columns, cell.rows)).all(axis=1) & (high > 0).all(axis=1)
+            near = (low < (cell.columns + margin, cell.rows + margin)).all(axis=1)
+            near &= (high > -margin).all(axis=1)
             if near.any():
                 found.append(moved(marks[near], x, y))
     return np.concatenate(found)

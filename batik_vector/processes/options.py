@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Annotated, Self, TypeAlias
 from batik_vector.errors import GeometryError
 from batik_vector.fields import Between, Catalogue, Length, OneOf, Says, belongs, named
 from batik_vector.processes.cutting.choices import Inks, Keep, LineBodies, Narrow, Start, Turns
+from batik_vector.processes.handwork.options import CrackleProcess, HandProcess
 from batik_vector.processes.hatching.options import AnyHatch
 from batik_vector.processes.printing.options import MisregisterProcess, SeparateProcess
 from batik_vector.processes.spec import ProcessSpec, StrokeProcess
@@ -292,6 +293,8 @@ PROCESSES: Catalogue[type[ProcessSpec]] = Catalogue(
             TrapProcess,
             SeparateProcess,
             MisregisterProcess,
+            CrackleProcess,
+            HandProcess,
         )
     },
     lambda: ProcessSpec,

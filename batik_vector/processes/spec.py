@@ -30,6 +30,8 @@ class ProcessSpec:
     """Whether what is left repeats as the tile did."""
     of_tile: ClassVar[bool] = False
     """Whether it is done to the tile, before this is repeated, bled or filled into cloth."""
+    keeps_group: ClassVar[bool] = True
+    """Whether what is left has the symmetry that the tile had."""
 
     def __post_init__(self) -> None:
         check(self)

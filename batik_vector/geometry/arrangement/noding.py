@@ -29,6 +29,8 @@ NEAR = 0.75
 """Steps within which a corner lies on an edge: a rounded crossing is off its edges by no more than √½."""
 HEALED = 8
 """Rounds in which such corners are taken for ones of the edge; after them, only those that lie on it."""
+ASKED = 20_000
+"""Edges that are asked at a time which others they may cross: there may be many pairs."""
 ROUNDS = 60
 """Rounds until edges should cross no more; hardly any drawing needs more than five."""
 
@@ -144,15 +146,11 @@ def _splits(edges: Edges, box: Box, near: float) -> tuple[Index, Steps]:
     on, points = _corners(edges, tree, box, near)
     inner = _inner(edges, on, points)
     on, points = on[inner], points[inner]
-    one, other = tree.query(lines, predicate="crosses")
     # What is to be drawn to a corner first may cross no more; cut at both at once, edges that leave one line
     # side by side cross ever anew, a step further on.
-    bent = np.zeros(len(edges), bool)
-    bent[on] = True
-    new = (one < other) & ~bent[one] & ~bent[other]
-    one, other = one[new], other[new]
-    crossing = _crossing(edges.ends[one], edges.ends[other])
-    one, other = one[crossing], other[crossing]
+    whole = np.ones(len(edges), bool)
+    whole[on] = False
+    one, other = _crossing_pairs(edges, lines, tree, np.flatnonzero(whole))
     if len(one):
         places = _crossings(edges.ends[one], edges.ends[other], box)
         on, points = np.concatenate([on, one, other]), np.concatenate([points, places, places])
@@ -168,8 +166,10 @@ def _inner(edges: Edges, on: Index, points: Steps) -> NDArray[np.bool_]:
 
 def _corners(edges: Edges, tree: shapely.STRtree, box: Box, near: float) -> tuple[Index, Steps]:
     """Return which edges have corners of others on them, and which."""
-    corners = np.unique(edges.ends.reshape(-1, 2), axis=0)
-    at, on = tree.query(shapely.points(corners.astype(float)), predicate="dwithin", distance=near + 0.01)
+    corners = _once(edges.ends.reshape(-1, 2))
+    reach = near + 0.01
+    low, high = (corners - reach).T, (corners + reach).T
+    at, on = tree.query(np.asarray(shapely.box(*low, *high), dtype=object))
     points, ends = corners[at], edges.ends[on]
     way, to = ends[:, 2:] - ends[:, :2], points - ends[:, :2]
     along = (way * to).sum(axis=1)
@@ -182,6 +182,34 @@ def _corners(edges: Edges, tree: shapely.STRtree, box: Box, near: float) -> tupl
         inside &= points[:, axis] != value
     meets &= np.where(_on_side(ends, box), across == 0, inside)
     return on[meets], points[meets]
+
+
+def _once(points: Steps) -> Steps:
+    """Return points in order, each once."""
+    order = np.lexsort([points[:, 1], points[:, 0]])
+    points = points[order]
+    return points[np.append(True, (points[1:] != points[:-1]).any(axis=1))] if len(points) else points
+
+
+def _crossing_pairs(
+    edges: Edges, lines: Geometries, tree: shapely.STRtree, asked: Index
+) -> tuple[Index, Index]:
+    """Return which of some edges cross which others of them, each pair once.
+
+    Those whose bounds meet are compared by numbers: to ask GEOS of each pair is many times dearer.
+    """
+    free = np.zeros(len(edges), bool)
+    free[asked] = True
+    found = [(asked[:0], asked[:0])]
+    for first in range(0, len(asked), ASKED):
+        some = asked[first : first + ASKED]
+        one, other = tree.query(lines[some])
+        one = some[one]
+        new = (one < other) & free[other]
+        one, other = one[new], other[new]
+        crossing = _crossing(edges.ends[one], edges.ends[other])
+        found.append((one[crossing], other[crossing]))
+    return np.concatenate([one for one, _ in found]), np.concatenate([other for _, other in found])
 
 
 def _crossing(one: Steps, other: Steps) -> NDArray[np.bool_]:

@@ -1,0 +1,1 @@
+"""What wax and hand leave on cloth: cracks, and lines that live."""
