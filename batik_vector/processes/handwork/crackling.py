@@ -84,10 +84,10 @@ def _inks(tile: Artwork, spec: CrackleProcess) -> tuple[int, set[int]]:
     # An ink may have the name that bare cloth has: then it is meant.
     number = {CLOTH: -1} | {name: k for k, name in enumerate(names)}
     if spec.dye and spec.dye not in number:
-        raise GeometryError(f"dye: {unknown_name(spec.dye, list(number), 'ink')}")
+        raise GeometryError(f"dye = {unknown_name(spec.dye, list(number), 'ink')}")
     for name in spec.wax:
         if name not in number:
-            raise GeometryError(f"wax: {unknown_name(name, list(number), 'ink')}")
+            raise GeometryError(f"wax = {unknown_name(name, list(number), 'ink')}")
     light = {-1: _light(tile.cloth)} | {k: _light(each.ink.colour) for k, each in enumerate(tile.layers)}
     dye = number[spec.dye] if spec.dye else min(light, key=lambda k: (light[k], k))
     wax = {number[name] for name in spec.wax} or {k for k in light if k != dye}
