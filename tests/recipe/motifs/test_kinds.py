@@ -17,6 +17,7 @@ from batik_vector.recipe.figures import Figure, draw
 from batik_vector.recipe.look import Dress, Treatment
 from batik_vector.recipe.motif import MOTIFS
 from batik_vector.recipe.motifs.composing import Composed
+from tests.thorough import examples, long
 
 KINDS: dict[str, type[Composed]] = {name: kind for name, kind in MOTIFS.items() if issubclass(kind, Composed)}
 TOLERANCE = 2e-3
@@ -43,7 +44,7 @@ NAMES = {
     "ceplok": "frame, cecek, corner, core, leaf, vein, petal, wreath",
     "jlamprang": "corner, cross, ray, block, petal, slit, core",
     "mega-mendung": "body, band 1, band 2, band 3, band 4, band 5",
-    "buketan": "tendril, stem, leaf, vein, petal, core, stamen, bud, sepal",
+    "buketan": "tendril, stem, leaf, vein, bud, sepal, petal, core, stamen",
     "nitik": "ground, frame, slant, petal, heart",
 }
 MIRRORED = dict.fromkeys(("butterfly", "polar-butterfly", "chrysanthemum", "lotus", "cockscomb"), 90.0)
@@ -84,12 +85,22 @@ def sound(figures: list[Figure]) -> None:
         assert np.isfinite(shapely.bounds(figure.areas)).all()
 
 
-EXTREMES = [
-    pytest.param(name, at, kind(value), id=f"{name}-{'.'.join(at)}-{value:g}")
-    for name, cls in KINDS.items()
-    for at, bounds, kind in numbers(cls())
-    for value in (bounds.low, bounds.high)
-]
+STRUCTURES = list(KINDS)[list(KINDS).index("parang") :]
+"""Kinds of whole structures, of which the quick tests try every thirteenth bound."""
+
+
+def extremes(name: str) -> list[Any]:
+    """Return the least and the greatest value of every number of a kind, as parameters."""
+    structure = name in STRUCTURES
+    found = [
+        pytest.param(name, at, kind(value), id=f"{name}-{'.'.join(at)}-{value:g}", marks=[long] * structure)
+        for at, bounds, kind in numbers(KINDS[name]())
+        for value in (bounds.low, bounds.high)
+    ]
+    return found[:: examples(13, 0) or 1] if structure else found
+
+
+EXTREMES = [each for name in KINDS for each in extremes(name)]
 
 
 @pytest.mark.parametrize("name", KINDS)
