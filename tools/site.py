@@ -37,8 +37,8 @@ FENCE = re.compile(r"^(```.*?^```\s*?$)", re.MULTILINE | re.DOTALL)
 MENU = {
     "Begin": "tutorial first-five-minutes gallery studio",
     "Your job": "howto/designer howto/workshop howto/printer howto/cutter howto/plotter howto/programmer",
-    "More on": "fills structures wax print pens cutting stencils plotting machines audit elsewhere library sweeps watch "
-    "command",
+    "More on": "fills structures wax print pens cutting stencils plotting machines audit elsewhere library "
+    "sweeps watch command",
     "Reference": "recipe api mathematics plugins architecture benchmarks releasing",
 }
 """The pages as the side of the site lists them; others come behind what there is more on."""
