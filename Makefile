@@ -30,7 +30,7 @@ studio: $(STUDIO_READY) ## open the studio in the browser
 
 inkscape-extension: ## pack the extension for Inkscape: out/batik-vector-inkscape.zip
 	@mkdir -p out
-	cd inkscape && $(PYTHON) -m zipfile -c ../out/batik-vector-inkscape.zip batik_tile.inx batik_tile.py
+	cd inkscape && $(PYTHON) -m zipfile -c ../out/batik-vector-inkscape.zip *.inx *.py
 
 site: $(SITE_READY) ## make the documentation site, and follow its links: out/site/index.html
 	$(PY) -m tools.site

@@ -35,15 +35,16 @@ def document(folder: Path, unit: str) -> Path:
     return path
 
 
-def extended(source: Path, *words: str) -> Path:
-    """Return the document that the extension makes of one."""
+def extended(source: Path, *words: str, name: str = "batik_tile") -> Path:
+    """Return the document that an extension makes of one."""
     out = source.with_name(f"done-{source.name}")
-    code = f"import sys, runpy; sys.path.insert(0, {EXTENSIONS!r}); sys.argv = sys.argv[1:]; "
-    code += "runpy.run_path(sys.argv[0], run_name='__main__')"
-    script = ROOT / "inkscape" / "batik_tile.py"
+    script = ROOT / "inkscape" / f"{name}.py"
+    code = f"import sys, runpy; sys.path[:0] = [{str(script.parent)!r}, {EXTENSIONS!r}]; "
+    code += "sys.argv = sys.argv[1:]; runpy.run_path(sys.argv[0], run_name='__main__')"
     options = (f"--program={PROGRAM}", f"--output={out}", *words)
     programs.run("/usr/bin/python3", "-c", code, script, *options, source, home=source.parent)
-    return out
+    # inkex writes nothing where nothing has changed: then there is nothing to take back, either.
+    return out if out.exists() else source
 
 
 @pytest.mark.parametrize("unit", SIZES)
@@ -68,6 +69,59 @@ def test_a_recipe_its_values_and_a_size(tmp_path: Path) -> None:
     assert 'fill="#102030"' in text
 
 
+WAYS = {
+    "mm": ('width="60mm" height="60mm" viewBox="0 0 60 60"', 1.0),
+    "px": (f'width="{60 * MM}" height="{60 * MM}"', MM),
+    "in": ('width="60mm" height="60mm" viewBox="0 0 3 3"', 3 / 60),
+}
+"""A page of 60 mm, and its units to a millimetre."""
+
+
+def tile(folder: Path, unit: str, right: float) -> Path:
+    """Return a tile in a layer: half a mark on the left edge, and on the right its twin, so much lower."""
+    page, scale = WAYS[unit]
+    path = folder / f"tile-{unit}.svg"
+    path.write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape"'
+        f' {page}><g id="check"/>'
+        '<g id="layer1" inkscape:groupmode="layer" inkscape:label="soga" fill="#a86f3a">'
+        f'<g transform="scale({scale})"><path d="M0 22C6 22 9 30 4 34C2 36 1 38 0 38Z"/>'
+        f'<path id="twin" transform="translate(60 {right})" d="M0 38C-6 38 -9 30 -4 26C-2 24 -1 22 0 22Z"/>'
+        "</g></g></svg>",
+        "utf-8",
+    )
+    return path
+
+
+@pytest.mark.parametrize("unit", WAYS)
+def test_faults_of_the_open_document_are_pointed_at_where_they_are(tmp_path: Path, unit: str) -> None:
+    done = extended(tile(tmp_path, unit, 0.5), name="batik_certify")
+    boxes = programs.inkscape_boxes(done)
+    # The id is taken: the pointers have one of their own. They stand at both edges, where the twins part.
+    left, top, width, height = boxes["check2"]
+    assert (left, left + width) == pytest.approx((0, 60), abs=1)
+    assert 15 < top < 22 < 38 < top + height < 45
+    assert boxes["twin"][3] == pytest.approx(16, abs=0.05), "the drawing is as it was"
+    again = extended(done, name="batik_certify")
+    assert again.read_text("utf-8").count('stroke="#ff00c8"') == 1
+    sound = extended(tile(tmp_path, unit, 0.0), name="batik_certify")
+    assert "#ff00c8" not in sound.read_text("utf-8")
+
+
+@pytest.mark.parametrize("unit", WAYS)
+def test_a_field_is_welded_in_true_size_over_the_page(tmp_path: Path, unit: str) -> None:
+    words = ("--columns=2", "--rows=3")
+    done = extended(tile(tmp_path, unit, 0.0), *words, name="batik_field")
+    boxes = programs.inkscape_boxes(done)
+    assert boxes["batik"][:2] == pytest.approx((0, 22), abs=0.1)
+    assert boxes["batik"][2:] == pytest.approx((120, 136), abs=0.1)
+    text = done.read_text("utf-8")
+    assert 'inkscape:label="Field 2 × 3"' in text
+    assert "display:none" in text
+    # A mark that two tiles meet in is one piece: three on each edge of the field, and three in its middle.
+    assert text[text.index('id="batik"') :].count("Z") == 9
+
+
 def test_what_is_wrong_is_told(tmp_path: Path) -> None:
     with pytest.raises(AssertionError, match="colour"):
         extended(document(tmp_path, "mm"), "--overrides=cloth.color=#102030")
@@ -78,7 +132,7 @@ def test_inkscape_takes_the_dialogue(tmp_path: Path) -> None:
     folder.mkdir(parents=True)
     packed = tmp_path / "packed.zip"
     with zipfile.ZipFile(packed, "w") as file:
-        for each in (ROOT / "inkscape").glob("batik_tile.*"):
+        for each in (ROOT / "inkscape").glob("batik_*.*"):
             file.write(each, each.name)
     zipfile.ZipFile(packed).extractall(folder)
     (tmp_path / "home").chmod(0o700)
