@@ -199,6 +199,13 @@ def built(out: Path, source: Path) -> None:
     subprocess.run([*call, str(source), str(out)], check=True, env={**os.environ, "PYTHONPATH": str(ROOT)})
     # What Sphinx keeps for itself, with times in it, is nobody's page.
     shutil.rmtree(out / ".doctrees", ignore_errors=True)
+    # Pictures in paragraphs of HTML it takes as they stand.
+    for path in sorted(out.rglob("*.html")):
+        for name in read(path).pictures:
+            there = Path(os.path.normpath(path.parent / name))
+            if out in there.parents and not there.exists() and (source / there.relative_to(out)).is_file():
+                there.parent.mkdir(parents=True, exist_ok=True)
+                shutil.copyfile(source / there.relative_to(out), there)
 
 
 def main() -> None:
