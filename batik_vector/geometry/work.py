@@ -152,22 +152,24 @@ def spend(
     (_open.get() or _Account()).take(cost, vertices, crossings)
 
 
-def foretell(vertices: float, crossings: float, lost: float = 0.0) -> None:
+def foretell(vertices: float, crossings: float, lost: float = 0, per_crossing: float = PER_CROSSING) -> None:
     """Raise where work that is going to be taken up step by step would come to more than ``LIMIT``.
 
     Args:
-        vertices, crossings: as for :func:`spend`, counted on a sample.
+        vertices, crossings, per_crossing: as for :func:`spend`, counted on a sample.
         lost: crossings that will lie inside a third shape.
     """
     ahead, now = _Account(), _open.get() or _Account()
     ahead.take(now.spent, now.vertices, now.crossings, now.pairs)
-    ahead.take(vertices + PER_CROSSING * crossings + PER_LOST_CROSSING * lost, vertices, crossings + lost)
+    ahead.take(vertices + per_crossing * crossings + PER_LOST_CROSSING * lost, vertices, crossings + lost)
 
 
-def spend_on_union(given: Geometries, made: Geometries) -> None:
-    """Take up the work of overlays that are done: what went in, and the crossings that came about."""
+def spend_on_union(given: Geometries, made: Geometries, *, per_crossing: float = PER_CROSSING) -> int:
+    """Take up the work of overlays that are done, with the crossings that came about; return how many."""
     count, out = (int(shapely.get_num_coordinates(each).sum()) for each in (given, made))
-    spend(count, _come_about(given, made) if max(count, out) > SMALL else 0.0)
+    crossings = _come_about(given, made) if max(count, out) > SMALL else 0
+    spend(count, crossings, per_crossing=per_crossing)
+    return crossings
 
 
 def spend_on_cuts(marks: Geometries, away: Geometries, left: Geometries) -> None:

@@ -21,6 +21,10 @@ from batik_vector.recipe.drawing import Part, Svg
 from batik_vector.recipe.motif import Element, Motif, Ring
 from batik_vector.values import frozen
 
+PER_CROSSING, MORE_CROSSINGS = 25.0, 1.5
+"""What a crossing of contours costs that lie over one another by turns, where each is a corner of four faces;
+and how many times more of them cross when pairs are overlaid with pairs."""
+
 
 @frozen
 class Figure:
@@ -160,10 +164,14 @@ def _bands(nested: list[Geometries]) -> Geometries:
         return nested[0]
     # Two by two, and these two by two again: one after another, each would be overlaid with all before it.
     total = np.array([shapely.union_all(part) for part in nested], dtype=object)
+    crossings = 0
     while len(total) > 1:
         pairs = len(total) // 2
+        if crossings:
+            vertices = float(shapely.get_num_coordinates(total).sum())
+            work.foretell(vertices, MORE_CROSSINGS * crossings, per_crossing=PER_CROSSING)
         joined = shapely.symmetric_difference(total[: 2 * pairs : 2], total[1 : 2 * pairs : 2])
-        work.spend_on_union(total, joined)
+        crossings = work.spend_on_union(total[: 2 * pairs], joined, per_crossing=PER_CROSSING)
         total = np.concatenate([joined, total[2 * pairs :]])
     # Where bands meet in a point a hair of line may be left.
     parts = shapely.get_parts(total)

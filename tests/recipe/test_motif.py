@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 import shapely
 
-from batik_vector.errors import GeometryError
+from batik_vector.errors import GeometryError, TooLargeError
+from batik_vector.geometry import work
 from batik_vector.geometry.curves import Circle, Hypocycloid, Rose, Spiral, Star, Superellipse, trace
 from batik_vector.geometry.regions import FillRule, settle
 from batik_vector.recipe.figures import draw
@@ -22,7 +23,7 @@ from batik_vector.recipe.motif import (
     Treatment,
     most_contours,
 )
-from tests.budgets import counted
+from tests.budgets import cold, counted
 
 TOLERANCE = 1e-3
 
@@ -133,10 +134,28 @@ def test_nested_contours_alternate() -> None:
 
 def test_many_contours_are_put_together_in_few_overlays() -> None:
     rings = Rosette(elements=(Element(curve=Circle(1.0), contours=64),))
-    with counted([(shapely, "symmetric_difference")]) as work:
+    with counted([(shapely, "symmetric_difference")]) as done:
         areas = draw(rings, TOLERANCE)[0].areas
-    assert work.calls() == 6
+    assert done.calls() == 6
     assert len(areas) == 32
+
+
+def test_contours_that_will_cross_too_often_are_refused_before_they_are_overlaid(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    tangle = Rosette(elements=(Element(curve=Star(points=32, inner=0.5), contours=16),))
+    monkeypatch.setattr(work, "SMALL", 0)
+    cold()
+    with work.account(), counted([(shapely, "symmetric_difference")]) as whole:
+        draw(tangle, TOLERANCE)
+        share = work.counted()
+    assert share is not None
+    cold()
+    monkeypatch.setattr(work, "LIMIT", 0.6 * share[0])
+    overlays = counted([(shapely, "symmetric_difference")])
+    with overlays as done, work.account(), pytest.raises(TooLargeError, match="cross"):
+        draw(tangle, TOLERANCE)
+    assert 0 < done.calls() < whole.calls()
 
 
 def test_the_key_that_asks_for_the_most_contours_is_known() -> None:
