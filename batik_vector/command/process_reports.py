@@ -68,6 +68,15 @@ def _wax(facts: Facts) -> Iterator[str]:
         dots = [f"{_counted(each['dots'], 'dot', 'dots')} among them"] if each["dots"] else []
         if drawn:
             yield f"  {', '.join(drawn + dots)}"
+        for one in each["cantings"]:
+            saved = one.get("at_once", {})
+            if saved.get("metres_saved") or saved.get("dots_saved"):
+                spouts = f"{saved['spouts']} spouts {format_mm(saved['pitch_mm'])} mm apart"
+                yield (
+                    f"  {one['canting']} with {spouts} saves "
+                    f"{metres(1000 * saved['metres_saved'])} of line and "
+                    f"{_counted(saved['dots_saved'], 'touch', 'touches')} for dots"
+                )
         if each["finer_mm2"] >= 0.05:
             yield f"  {each['finer_mm2']:,.1f} mm² are finer than the finest canting: points, or thin lines"
 

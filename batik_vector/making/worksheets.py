@@ -62,9 +62,13 @@ def _caption(step: Step, picture: Artwork, spec: WaxProcess) -> Iterator[str]:
     yield f"{area:,.1f} cm², {covers:.1f} % of the cloth"
     if step.doing is Doing.SCRAPE:
         return
-    told = drawn_by(picture, layer.areas, spec.cantings)
+    told = drawn_by(picture, layer.areas, spec.cantings, spec.multi_spouts)
     for each in told["cantings"]:
         if each["metres"] >= 0.001:
             yield f"{each['canting']} {format_mm(each['spout_mm'])} mm: {each['metres']:,.2f} m"
+        saved = each.get("at_once", {})
+        if saved.get("metres_saved") or saved.get("dots_saved"):
+            less = f"{saved['metres_saved']:,.2f} m and {saved['dots_saved']:,} dots"
+            yield f"{saved['spouts']} spouts at once save {less}"
     if told["dots"]:
         yield f"{told['dots']:,} dots among them"

@@ -11,7 +11,7 @@ from dataclasses import field
 from importlib import import_module
 from typing import TYPE_CHECKING, Annotated, Self, TypeAlias
 
-from batik_vector.errors import GeometryError
+from batik_vector.errors import GeometryError, unknown_name
 from batik_vector.fields import Between, Catalogue, Length, OneOf, Says, belongs, named
 from batik_vector.processes.cutting.choices import Inks, Keep, LineBodies, Narrow, Start, Turns
 from batik_vector.processes.handwork.options import CrackleProcess, HandProcess
@@ -235,6 +235,10 @@ class WaxProcess(ProcessSpec):
     cantings: Annotated[
         dict[str, Spout], Says("breadths of the spouts that there are: the broadest that fits draws")
     ] = field(default_factory=lambda: dict(CANTINGS))
+    multi_spouts: Annotated[
+        dict[str, tuple[Spout, Annotated[int, Between(2, 12)]]],
+        Says("by cantings that there are with several spouts in a row: from spout to spout, and how many"),
+    ] = field(default_factory=dict)
     cap: Annotated[
         tuple[Annotated[Length, Between(5, 5000)], Annotated[Length, Between(5, 5000)]] | None,
         Says("breadth and height of a stamp at most: a file for each that the repeat takes; none if unset"),
@@ -250,6 +254,14 @@ class WaxProcess(ProcessSpec):
         super().__post_init__()
         if self.cap_number is not None and self.cap is None:
             raise GeometryError(f"cap_number = {self.cap_number}, expected the size of a cap beside it")
+        for name, (pitch, _) in self.multi_spouts.items():
+            if name not in self.cantings:
+                raise GeometryError(f"multi_spouts = {unknown_name(name, list(self.cantings), 'canting')}")
+            if pitch <= self.cantings[name]:
+                raise GeometryError(
+                    f"multi_spouts = {format_mm(pitch)} mm of {name}, from spout to spout, expected more "
+                    f"than the {format_mm(self.cantings[name])} mm that one draws"
+                )
 
     def apply(self, page: Page, machine: Machine) -> Artwork:
         """Return a plate, all as layers, or the cloth; see :meth:`ProcessSpec.apply`."""

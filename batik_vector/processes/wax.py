@@ -246,7 +246,9 @@ def _facts(page: Page, done: Artwork, dyeing: Dyeing, spec: WaxProcess) -> dict[
     pieces = {layer.ink.name: len(layer.areas) for layer in layers}
     waxed = () if spec.plate == CLOTH else (STAYS, COMES_OFF)
     drawn = {
-        layer.ink.name: drawn_by(done, layer.areas, spec.cantings if layer.ink.colour in waxed else {})
+        layer.ink.name: drawn_by(
+            done, layer.areas, spec.cantings if layer.ink.colour in waxed else {}, spec.multi_spouts
+        )
         for layer in layers
     }
     inks = [plate.ink.name for plate in page.plates if not plate.guide]

@@ -38,6 +38,7 @@ CLEAN = [
     ("vinyl-cutter", "machine-vinyl"),
     ("stencil-film", "machine-stencil"),
     ("rotary-screen", "machine-rotary"),
+    ("cap", "cap-grompol"),
 ]
 
 

@@ -72,6 +72,8 @@ def test_the_schema_accepts_what_compiles(path: Path) -> None:
 BEYOND = {
     *(
         "an ink in parts of one",
+        "several spouts of a canting that is not there",
+        "spouts closer than one is broad",
         "a colourway of an ink that is not",
         "isen too bold for the marks it may choose",
         "an unknown palette",

@@ -12,9 +12,11 @@ from typing import Any
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from batik_vector.artwork import Artwork, Geometries
 from batik_vector.geometry.regions import polygonal
+from batik_vector.processes.waxing.multispouts import at_once
 from batik_vector.units import STEPS_PER_MM
 
 QUARTER = 8
@@ -25,13 +27,19 @@ ROUND = 0.85
 """4πA/P² from which a piece is a dot: 0.785 is a square's, 1 a circle's."""
 
 
-def drawn_by(page: Artwork, areas: Geometries, cantings: Mapping[str, float]) -> dict[str, Any]:
+def drawn_by(
+    page: Artwork,
+    areas: Geometries,
+    cantings: Mapping[str, float],
+    multi_spouts: Mapping[str, tuple[float, int]] | None = None,
+) -> dict[str, Any]:
     """Return what each canting draws of a plate, the broadest first, as plain values.
 
     Args:
         page: on which the plate lies; a tile's wax goes on across its edges.
         areas: the plate's, in mm, of which none overlap.
         cantings: breadths of spouts in mm, by their names.
+        multi_spouts: of cantings that there are with several spouts, their pitch in mm and number.
     """
     if not cantings or not len(areas):
         return {"cantings": [], "dots": 0, "finer_mm2": 0.0}
@@ -40,7 +48,7 @@ def drawn_by(page: Artwork, areas: Geometries, cantings: Mapping[str, float]) ->
         -page.bleed, -page.bleed, page.cell.width + page.bleed, page.cell.height + page.bleed
     )
     left = _around(page, areas, 2 * spouts[0][1])
-    told = []
+    told = list[dict[str, Any]]()
     for name, spout in spouts:
         reached = _reached(left, spout)
         drawn = shapely.intersection(reached, window)
@@ -53,9 +61,14 @@ def drawn_by(page: Artwork, areas: Geometries, cantings: Mapping[str, float]) ->
                 "metres": round(area / spout / 1000, 3),
             }
         )
+        if multi_spouts and name in multi_spouts:
+            pieces = polygonal(drawn)
+            dot = _are_dots(pieces, 1.5 * spout)
+            told[-1]["at_once"] = at_once(pieces[~dot], pieces[dot], spout, *multi_spouts[name])
         left = _areas(shapely.difference(left, reached))
     finer = float(shapely.area(shapely.intersection(left, window)))
-    return {"cantings": told, "dots": _dots(areas, 1.5 * spouts[0][1]), "finer_mm2": round(finer, 1)}
+    dots = int(_are_dots(areas, 1.5 * spouts[0][1]).sum())
+    return {"cantings": told, "dots": dots, "finer_mm2": round(finer, 1)}
 
 
 def _around(page: Artwork, areas: Geometries, reach: float) -> shapely.Geometry:
@@ -88,8 +101,8 @@ def _areas(found: shapely.Geometry) -> shapely.Geometry:
     return areas[0] if len(areas) == 1 else shapely.MultiPolygon(areas.tolist())
 
 
-def _dots(areas: Geometries, most: float) -> int:
-    """Return how many pieces are round and no broader than told: *cecek*."""
+def _are_dots(areas: Geometries, most: float) -> NDArray[np.bool_]:
+    """Return which pieces are round and no broader than told: *cecek*."""
     area, length = shapely.area(areas), shapely.length(areas)
     small = area <= np.pi * most * most / 4
-    return int((small & (4 * np.pi * area >= ROUND * length * length)).sum())
+    return np.asarray(small & (4 * np.pi * area >= ROUND * length * length), bool)
