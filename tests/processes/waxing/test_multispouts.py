@@ -81,7 +81,10 @@ def test_dots_round_a_corner_or_off_the_pitch_are_not_one_row() -> None:
     ("asked", "words"),
     [
         ({"isan": (2.0, 2)}, 'multi_spouts = unknown canting "isan": did you mean "isen"?'),
-        ({"isen": (0.8, 2)}, "multi_spouts = 0.8 mm of isen, from spout to spout, expected more than the 0.8 mm"),
+        (
+            {"isen": (0.8, 2)},
+            "multi_spouts = 0.8 mm of isen, from spout to spout, expected more than the 0.8 mm",
+        ),
     ],
 )
 def test_spouts_that_cannot_be_are_refused(asked: dict[str, tuple[float, int]], words: str) -> None:
