@@ -73,9 +73,9 @@ def test_more_strength_moves_more() -> None:
 @settings(max_examples=examples(4, 25), deadline=None)
 @given(
     seed=st.integers(0, 2**31 - 1),
-    strength=st.floats(0.1, 1),
-    reach=st.floats(2, 30),
-    least=st.floats(0.3, 1.2),
+    strength=st.floats(0.5, 1),
+    reach=st.floats(2, 10),
+    least=st.floats(0.7, 1.19),
 )
 def test_what_was_broad_enough_for_the_spout_still_is(
     seed: int, strength: float, reach: float, least: float
