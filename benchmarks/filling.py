@@ -3,6 +3,9 @@
 python -m benchmarks.filling cecek        dots in rows, about 10^5
 python -m benchmarks.filling galaran      parallel lines
 python -m benchmarks.filling KIND         any other kind, ours alone
+python -m benchmarks.filling pack         twelve leaves packed a millimetre apart on 300 × 300 mm, and tossed
+
+``benchmarks.peers.vsketch_fill`` has the same as a sketch of vsketch.
 
 Both make the same marks as areas, at the same spacing, width and margin; the loop prepares its region.
 """
@@ -12,26 +15,20 @@ from __future__ import annotations
 import math
 import sys
 import time
-from collections.abc import Callable
 
 import numpy as np
 import shapely
 from shapely import affinity
 
+from batik_vector.artwork import Cell
 from batik_vector.geometry.fills.insets import whole
 from batik_vector.recipe.fills import FILLS, Cecek, Fill, Galaran, Room
-
-TIMES = 5
-SPACING, WIDTH, MARGIN = 0.85, 0.4, 0.7
-LINES = 0.2
-"""Spacing of the parallel lines, of which there are fewer, in mm."""
-
-
-def region() -> shapely.Polygon:
-    """Return a disc of 300 mm with a round hole."""
-    disc = shapely.Point(0, 0).buffer(150, quad_segs=64)
-    found: shapely.Polygon = disc.difference(shapely.Point(50, 20).buffer(30, quad_segs=40))  # type: ignore[assignment]
-    return found
+from batik_vector.tiling.layouts import Pack, Toss
+from batik_vector.tiling.tossing.marks import Field
+from batik_vector.tiling.tossing.scatter import Torus
+from batik_vector.tiling.tossing.toss import Marks, toss
+from benchmarks.disc import LINES, MARGIN, SPACING, WIDTH, least, region
+from tests.tiling.tossing.leaves import LEAVES
 
 
 def dots_by_loop(shape: shapely.Polygon) -> int:
@@ -67,16 +64,6 @@ def ours(fill: Fill, shape: shapely.Polygon) -> int:
     return len(fill.lay(Room(whole(np.array([shape])), np.zeros((1, 2)), 1, 0.02, 1))[0])
 
 
-def least(work: Callable[[], int]) -> tuple[float, int]:
-    """Return the least CPU time of several runs, and how many marks were made."""
-    found = []
-    for _ in range(TIMES):
-        begin = time.process_time()
-        count = work()
-        found.append(time.process_time() - begin)
-    return min(found), count
-
-
 def main(kind: str) -> None:
     """Tell what a fill takes."""
     shape = region()
@@ -93,5 +80,18 @@ def main(kind: str) -> None:
         print(f"a loop with shapely: {made:,} marks in {slow:.3f} s, {slow / seconds:.0f} times as long")
 
 
+def packing() -> None:
+    """Tell what packing takes and covers, and what a toss does."""
+    for spec in (Pack(distance=1.0), Toss(distance=1.0)):
+        begin = time.process_time()
+        torus, nothing = Torus(Cell(300_000, 300_000).lattice), Field.of(np.empty(0, dtype=object))
+        report = toss(spec, Marks(tuple("abcdefghijkl"), LEAVES, 0.03), torus, nothing, 1).report
+        seconds = time.process_time() - begin
+        print(
+            f"{spec.kind}: {sum(report.counts)} marks cover {100 * report.covers:.1f} %, least gap "
+            f"{report.distance:g} mm, in {seconds:.1f} s of CPU"
+        )
+
+
 if __name__ == "__main__":
-    main(sys.argv[1])
+    packing() if sys.argv[1] == "pack" else main(sys.argv[1])

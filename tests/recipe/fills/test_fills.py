@@ -13,6 +13,7 @@ from batik_vector.geometry.fills.insets import whole
 from batik_vector.geometry.sampling import Geometries, Indices
 from batik_vector.recipe.fills import (
     FILLS,
+    CacahGori,
     Cecek,
     Contours,
     Fill,
@@ -151,6 +152,103 @@ def test_a_net_is_one_and_spirals_are_linked_two_and_two() -> None:
     area = shapely.area(laid(Ukel(), disc)[0])
     linked = area > 1.5 * np.median(area) / 2
     assert linked.sum() > 12
+
+
+@pytest.mark.parametrize("fill", [CacahGori(spacing=3), CacahGori(spacing=3, angle=25)], ids=str)
+def test_crosses_in_rows_stand_at_their_spacing(fill: CacahGori) -> None:
+    marks, region = laid(fill, regions(40, 12))
+    assert np.median(nearest(marks, region)) == pytest.approx(3, rel=1e-9)
+    assert nearest(marks, region).min() >= 3 * (1 - 1e-9)
+
+
+@pytest.mark.parametrize("follow", [Rows.CONTOUR, Rows.CENTRE, Rows.SCATTER, Rows.AXIS])
+def test_other_crosses_are_never_nearer_by_more_than_a_twentieth(follow: Rows) -> None:
+    near = nearest(*laid(CacahGori(spacing=2.4, follow=follow), regions(40, 12)))
+    # On small circles the chord is shorter than the arc that is shared out.
+    assert np.quantile(near, 0.01) >= 0.95 * 2.4
+    assert near.min() >= 0.88 * 2.4
+    assert np.median(near) <= 1.3 * 2.4
+
+
+def test_splinters_are_never_nearer_than_their_spacing() -> None:
+    # The middle of a bent splinter is not that of its place.
+    near = nearest(*laid(Herangan(spacing=2.6), regions(40, 12)))
+    assert near.min() >= 0.9 * 2.6
+    assert np.median(near) <= 1.3 * 2.6
+
+
+def test_strokes_stand_at_their_spacing_along_a_straight_edge() -> None:
+    marks, _ = laid(Sawut(spacing=1.6, length=3), np.array([shapely.box(0, 0, 160, 80)]))
+    low_x, low_y, _, high_y = shapely.bounds(marks).T
+    below = np.sort(low_x[(high_y - low_y > 2) & (high_y < 10) & (low_x > 6) & (low_x < 150)])
+    assert len(below) > 80
+    assert np.diff(below) == pytest.approx(1.6, rel=0.05)
+
+
+def test_the_meshes_of_a_net_are_a_spacing_broad() -> None:
+    net, _ = laid(Hatching(spacing=3, width=0.6, between=60), np.array([shapely.box(0, 0, 60, 50)]))
+    meshes = shapely.area(shapely.polygons(shapely.get_rings(net[0])[1:]))
+    side = (3 - 0.6) / np.sin(np.radians(60))
+    assert np.median(meshes) == pytest.approx(side * (3 - 0.6), rel=0.01)
+
+
+def test_scales_stand_at_their_spacing_in_rows_half_as_far() -> None:
+    marks, _ = laid(Sisik(spacing=4, angle=0), np.array([shapely.box(0, 0, 60, 50)]))
+    low_x, low_y, high_x, _ = shapely.bounds(marks).T
+    whole_ones = high_x - low_x > 0.99 * (high_x - low_x).max()
+    rows = np.rint(low_y[whole_ones] / 2).astype(int)
+    places = low_x[whole_ones]
+    for row in np.unique(rows)[1:-1]:
+        assert np.diff(np.sort(places[rows == row])) == pytest.approx(4, rel=1e-6)
+    assert np.diff(np.unique(np.round(low_y[whole_ones], 6))) == pytest.approx(2, rel=1e-3)
+
+
+def test_pairs_of_spirals_stand_in_rows_a_spacing_apart() -> None:
+    fill = Ukel(spacing=5)
+    marks, _ = laid(fill, np.array([shapely.box(0, 0, 90, 70)]))
+    area = shapely.area(marks)
+    near = nearest(linked := marks[area > 0.9 * area.max()], np.zeros(len(linked), np.intp))
+    row = 2 * fill.spacing - fill.width
+    # Every other row is a quarter of a pair on; at the edge a neighbour may be missing.
+    assert np.quantile(near, [0, 0.9]) == pytest.approx(np.hypot(row / 4, fill.spacing), rel=0.05)
+
+
+def test_side_veins_leave_the_midrib_at_their_spacing() -> None:
+    marks, _ = laid(VeinLines(spacing=3, width=0.5, angle=60), np.array([shapely.box(0, 0, 80, 24)]))
+    cut = shapely.intersection(shapely.LineString([(10, 14), (60, 14)]), shapely.union_all(marks))
+    middles = np.sort(shapely.get_coordinates(shapely.centroid(shapely.get_parts(cut)))[:, 0])
+    assert len(middles) > 12
+    assert np.diff(middles) == pytest.approx(3, rel=0.05)
+
+
+def bent_leaf(turn: float) -> Geometries:
+    t = np.linspace(0, 2 * np.pi, 240)[:-1]
+    x, y = 24 * np.cos(t), 7 * np.sin(t) * np.abs(np.sin(t)) ** 0.4
+    z = (x + 1j * (y + x * x / 70)) * np.exp(1j * np.radians(turn))
+    return np.array([shapely.orient_polygons(shapely.Polygon(np.column_stack([z.real, z.imag])).buffer(0))])
+
+
+@pytest.mark.parametrize("turn", [0, 50, 130])
+def test_rows_along_a_bent_midrib_keep_their_spacing_whichever_way_it_lies(turn: float) -> None:
+    leaf = bent_leaf(turn)
+    lines, _ = laid(Galaran(follow=Follow.AXIS, spacing=1.8, width=0.5), leaf)
+    assert len(lines) >= 5
+    a, b = shapely.STRtree(lines).query(lines, predicate="dwithin", distance=1.8)
+    gaps = shapely.distance(lines[a[a != b]], lines[b[a != b]]) + 0.5
+    assert gaps == pytest.approx(1.8, rel=0.05)
+    # Bent with the leaf: a straight row of such length would be a rectangle.
+    longest = lines[shapely.area(lines).argmax()]
+    assert shapely.area(shapely.minimum_rotated_rectangle(longest)) > 3 * shapely.area(longest)
+    dots, _ = laid(Cecek(follow=Rows.AXIS, spacing=1.8), leaf)
+    near = nearest(dots, np.zeros(len(dots), np.intp))
+    assert near.min() >= 0.95 * 1.8
+    assert np.quantile(near, 0.95) <= 1.05 * 1.8
+
+
+def test_a_straight_leaf_has_straight_rows() -> None:
+    lines, _ = laid(Galaran(follow=Follow.AXIS, spacing=2), np.array([shapely.box(0, 0, 60, 12)]))
+    low = np.sort(shapely.bounds(lines)[:, 1])
+    assert np.diff(low) == pytest.approx(2, rel=1e-6)
 
 
 def test_veins_hang_together_in_a_leaf() -> None:

@@ -1,0 +1,57 @@
+"""vsketch with shapely: a disc with a hole filled with dots or lines, as sketches do it, mark by mark.
+
+python -m benchmarks.peers.vsketch_fill cecek
+python -m benchmarks.peers.vsketch_fill galaran
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+
+import shapely
+import vsketch
+
+from benchmarks.disc import LINES, MARGIN, SPACING, WIDTH, least, region
+
+
+def sketch() -> vsketch.Vsketch:
+    """Return an empty page in mm."""
+    found = vsketch.Vsketch()
+    found.size("320mm", "320mm", center=False)
+    found.scale("mm")
+    return found
+
+
+def dots() -> int:
+    """Draw a circle wherever a place of the lattice lies within."""
+    page, inner = sketch(), region().buffer(-MARGIN - WIDTH / 2)
+    shapely.prepare(inner)
+    x0, y0, x1, y1 = inner.bounds
+    pitch, count = SPACING * math.sqrt(0.75), 0
+    for row in range(math.ceil(y0 / pitch), math.floor(y1 / pitch) + 1):
+        shift = SPACING / 2 * (row % 2)
+        for step in range(math.ceil((x0 - shift) / SPACING), math.floor((x1 - shift) / SPACING) + 1):
+            x, y = shift + step * SPACING, row * pitch
+            if inner.contains(shapely.Point(x, y)):
+                page.circle(x, y, radius=WIDTH / 2)
+                count += 1
+    return count
+
+
+def lines() -> int:
+    """Draw what of each parallel line lies within, as a stroke with a body."""
+    page, inner = sketch(), region().buffer(-MARGIN - LINES / 4)
+    x0, y0, x1, y1 = inner.bounds
+    count = 0
+    for row in range(math.ceil(y0 / LINES), math.floor(y1 / LINES) + 1):
+        cut = inner.intersection(shapely.LineString([(x0 - 1, row * LINES), (x1 + 1, row * LINES)]))
+        for part in shapely.get_parts(cut):
+            page.geometry(part.buffer(LINES / 4, quad_segs=3))
+            count += 1
+    return count
+
+
+if __name__ == "__main__":
+    seconds, made = least({"cecek": dots, "galaran": lines}[sys.argv[1]], 1)
+    print(f"vsketch with shapely: {made:,} marks in {seconds:.3f} s of CPU")
