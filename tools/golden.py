@@ -32,7 +32,7 @@ from batik_vector.recipe.outputs import OutputSpec, PngOutput
 from batik_vector.tiling.cloth.field import repeated
 from batik_vector.tiling.cloth.yardage import Yardage
 from batik_vector.units import STEPS_PER_MM, format_mm
-from tools import travel
+from tools import thumbnails, travel
 from tools.starters_sheet import SHEET, sheet
 
 SAMPLES = Path(__file__).resolve().parents[1] / "samples"
@@ -286,6 +286,8 @@ def main() -> int:
         print(f"{path.name:<32} {'stale' if only_check else 'written'}")
         if not only_check:
             path.write_text(text, encoding="utf-8")
+    tiles = {each.path: each.page for each in found if isinstance(each.page, Artwork)}
+    wrong += thumbnails.drawn_anew(tiles, only_check=only_check)
     for kept in sorted({*SAMPLES.glob("*.png")} - {each.picture_path for each in found}):
         wrong += 1
         print(f"{kept.name:<32} belongs to no recipe")

@@ -5,7 +5,7 @@
 #   tools/setup.sh tools      into the same, what tests and checks it
 #   tools/setup.sh studio     into the same, what the studio needs
 #   tools/setup.sh site       into the same, what makes the documentation site
-#   tools/setup.sh peers      .venv-bench with what the benchmarks measure us against
+#   tools/setup.sh peers      .venv-bench with what the benchmarks measure us against, .venv-bench-pages with pages
 #   tools/setup.sh clients    the real programs that tests/clients opens files in; in .venv-vpype vpype with our plug-in, vsketch, readers of HPGL
 #   tools/setup.sh bare       what makes a bare system
 #
@@ -19,6 +19,7 @@ cd "$(dirname "$0")/.."
 python=${PYTHON:-python3}
 venv=${VENV:-.venv}
 peers=.venv-bench
+pages=.venv-bench-pages
 plotting=.venv-vpype
 log=
 
@@ -165,14 +166,18 @@ peers_ready() {
         (system_needs gcc pkg-config libcairo2-dev python3-dev) || say "pycairo may not build"
     fi
     say "installing what the benchmarks are measured against into $peers (pip)"
-    local line folder=
+    local line folder= asking=()
     while read -r line; do
         case $line in
         '# plug-ins'*) folder=$peers/plug-ins ;;
+        '# pages'*) folder=pages ;;
         '' | '#'*) ;;
-        *) peer "$folder" "$line" ;;
+        *) if [ "$folder" = pages ]; then asking+=("$line"); else peer "$folder" "$line"; fi ;;
         esac
     done <benchmarks/requirements.txt
+    environment "$pages"
+    pip_install "$pages" "${asking[@]}" >"$log" 2>&1 || say "pages cannot be installed: benchmarks.pages leaves them out"
+    rm -f "$pages/.unfinished"
     "$peers/bin/python" -c 'import cairocffi' 2>/dev/null || (system_needs libcairo2) || say "cairosvg lacks cairo"
     rm -f "$peers/.unfinished"
 }

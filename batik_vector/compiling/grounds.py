@@ -16,7 +16,7 @@ from batik_vector.geometry.sampling import Array
 from batik_vector.recipe.figures import Figure, draw, size_of
 from batik_vector.recipe.motif import MOTIFS, Motif, Treatment
 from batik_vector.recipe.motifs.composing import Banded
-from batik_vector.recipe.placement import Placement
+from batik_vector.recipe.placement import Mirror, Placement
 from batik_vector.tiling.layouts import Clear, Scattered, Stripes
 from batik_vector.tiling.symmetry.orbits import Orbit
 from batik_vector.tiling.torus import overlay
@@ -46,11 +46,12 @@ NEXT_SEED = 7919
 class Ground:
     """What a ground is laid on.
 
-    ``tolerance`` in mm; ``tossed`` all that earlier tosses put down, ``sheets`` all that earlier placements
-    did; ``seed`` the recipe's.
+    ``middle`` of the repeat in mm; ``tolerance`` in mm; ``tossed`` all that earlier tosses put down,
+    ``sheets`` all that earlier placements did; ``seed`` the recipe's.
     """
 
     lattice: Lattice
+    middle: tuple[float, float]
     orbit: Orbit
     inks: Mapping[str, Ink]
     tolerance: float
@@ -71,6 +72,21 @@ def lattice_of(unit: Cell, orbit: Orbit) -> Lattice:
         raise GeometryError("tosses, packs and stripes fill a tile: expected another layout in a border")
     a, b = ((to_steps(x), to_steps(y)) for x, y in orbit.periods)
     return a, b
+
+
+def flip(mirror: Mirror, about: tuple[float, float] = (0.0, 0.0)) -> Affine:
+    """Return the map that changes sides about a point."""
+    x, y = about
+    by = {Mirror.ACROSS: Affine.mirror(90), Mirror.DOWN: Affine.mirror(0), Mirror.BOTH: Affine.turn(180)}
+    return Affine.translation((x, y)) @ by[mirror] @ Affine.translation((-x, -y))
+
+
+def _flipped(lattice: Lattice, mirror: Mirror | None) -> Lattice:
+    """Return the mirror image of a lattice, its first vector along x or its second along y."""
+    if mirror in (None, Mirror.BOTH):
+        return lattice
+    (ax, ay), (bx, by) = lattice
+    return ((ax, -ay % by), (0, by)) if bx == 0 else ((ax, 0), (-bx % ax, by))
 
 
 def scattered(
@@ -102,23 +118,30 @@ def scattered(
     slack = max(tolerance for _, tolerance in drawn.values()) + ground.tolerance + GRID_MM
     marks = Marks(tuple(motifs), np.array(bodies, dtype=object), slack, reach)
     base = ground.orbit.base
+    # Marks fall behind the mirror, and what has fallen is carried over.
+    over = Affine() if placement.mirror is None else flip(placement.mirror, ground.middle)
     linear = np.array([[base.a, base.b], [base.c, base.d]])
     operations = (Affine(),) if ground.orbit.region else ground.orbit.operations
+    if placement.mirror is not None:
+        linear = linear * [[1, -1], [-1, 1]] if placement.mirror != Mirror.BOTH else linear
+        operations = tuple(over @ each @ over for each in operations)
     torus = Torus(
-        ground.lattice,
+        _flipped(ground.lattice, placement.mirror),
         in_steps(operations, STEPS_PER_MM),
         None if np.array_equal(linear, np.eye(2)) else linear,
     )
     seed = ground.seed + NEXT_SEED * len(ground.tossed)
-    tossed = toss(spec, marks, torus, _taken(spec, placement, ground), seed)
+    (in_grid,) = in_steps((over,), STEPS_PER_MM)
+    tossed = toss(spec, marks, torus, _taken(spec, placement, ground, in_grid), seed)
     grown = Affine.scale(scale)
-    return Tossed(tuple(copies @ grown for copies in tossed.copies), tossed.field, tossed.report)
+    copies = tuple(over @ copies @ grown for copies in tossed.copies)
+    return Tossed(copies, tossed.field, tossed.report, in_grid)
 
 
 def striped(
     placement: Placement, motif: Motif, spec: Stripes, scale: float, unit: Cell, ground: Ground
-) -> Courses:
-    """Return where the lines of a placement run.
+) -> tuple[Courses, Affine]:
+    """Return where the lines of a placement run, and the map that carries them to their sides.
 
     Raises:
         GeometryError: where they are to fit a motif that is no band.
@@ -132,7 +155,8 @@ def striped(
         kinds = ", ".join(name for name, kind in MOTIFS.items() if issubclass(kind, Banded))
         raise GeometryError(f"fit = true: the motif is no band and has no breadth, expected one of {kinds}")
     breadth = motif.across if isinstance(motif, Banded) else 0.0
-    return courses(spec, ground.lattice, (x, y), scale, breadth)
+    back = Affine() if placement.mirror is None else flip(placement.mirror, (x, y))
+    return courses(spec, _flipped(ground.lattice, placement.mirror), (x, y), scale, breadth), back
 
 
 def _drawn(motif: Motif, scale: float, tolerance: float) -> tuple[list[Figure], float]:
@@ -203,18 +227,21 @@ def _overreach(
     return farthest
 
 
-def _taken(spec: Scattered, placement: Placement, ground: Ground) -> Field:
-    """Return what marks keep clear of: enough larger that the placement's own gap does not cut it."""
+def _taken(spec: Scattered, placement: Placement, ground: Ground, over: Affine) -> Field:
+    """Return what marks keep clear of: enough larger that the placement's own gap does not cut it.
+
+    ``over`` carries it behind the placement's mirror, where what fell behind the same one is to the bit.
+    """
     from batik_vector.tiling.torus.torus import as_steps
     from batik_vector.tiling.tossing.marks import Field
 
     nothing = Field.of(np.empty(0, dtype=object))
     if spec.clear == Clear.NONE:
         return nothing
-    taken = Field.joined([nothing, *(each.field for each in ground.tossed)])
+    taken = Field.joined([nothing, *(each.field.moved(over @ each.over) for each in ground.tossed)])
     if spec.clear == Clear.ALL:
         merged = _merged(ground.sheets, spec.distance / 2, ground.tolerance)
-        taken = Field.of(as_steps(merged))
+        taken = Field.of(as_steps(merged)).moved(over)
     wider = max((placement.gap or 0.0) - spec.distance, 0.0) * STEPS_PER_MM
     return taken.grown(wider) if wider else taken
 

@@ -14,7 +14,7 @@ from batik_vector.artwork import Cell, Geometries, Ink
 from batik_vector.compiling.bends import SOURCE_SHARE, Source, bent
 from batik_vector.compiling.copies import Laid, Look, set_down, sized
 from batik_vector.compiling.fills import Work, filled, has_fills
-from batik_vector.compiling.grounds import Ground, lattice_of, scattered, striped
+from batik_vector.compiling.grounds import Ground, flip, lattice_of, scattered, striped
 from batik_vector.errors import GeometryError, RecipeError, TooLargeError, UnknownNameError, blame
 from batik_vector.geometry import work
 from batik_vector.geometry.ifs import distinct
@@ -175,6 +175,8 @@ def _drawn(
         scale = placement.width / _extent(figures, copies)
     at = placement.at or orbit.middle or (cell[0] / 2, cell[1] / 2)
     on_cloth = orbit.base @ Affine.translation(at) @ Affine.turn(placement.turn) @ Affine.scale(scale)
+    if placement.mirror is not None:
+        on_cloth = on_cloth @ flip(placement.mirror)
     maps = on_cloth @ copies
     fills = Work(placement, inks, fineness, seed, limit, orbit.turns_at(maps[0]))
     shown = filled(figures, placement.motifs[0], motif, maps, times, fills)
@@ -254,7 +256,9 @@ def _ground(
     with blame("layout"):
         tosses = [each.tossed for each in before if each.tossed]
         sheets = [sheet for each in before for sheet in each.sheets]
-        ground = Ground(lattice_of(unit, orbit), orbit, inks, recipe.tolerance, recipe.seed, tosses, sheets)
+        middle = unit.width / 2, unit.height / 2
+        lattice = lattice_of(unit, orbit)
+        ground = Ground(lattice, middle, orbit, inks, recipe.tolerance, recipe.seed, tosses, sheets)
         if isinstance(placement.layout, Scattered):
             tossed = scattered(placement, placement.layout, motifs, scale, ground)
             for (name, motif), copies in zip(motifs.items(), tossed.copies, strict=True):
@@ -265,14 +269,18 @@ def _ground(
                     drawn[name] = _multiplied(Laid(shown, maps), orbit, finest)
         elif isinstance(placement.layout, Stripes):
             for name, motif in motifs.items():
-                lines = striped(placement, motif, placement.layout, scale, unit, ground)
+                lines, back = striped(placement, motif, placement.layout, scale, unit, ground)
                 fitted = lines.report
                 _refuse_past(limit, rough[name], len(lines.starts) * lines.links, times, finer[name])
                 one = Affines.of([Affine.scale(scale)])
                 links = len(lines.starts) * lines.links
                 shown = filled(_shown(draw(motif, finest / lines.stretch)), name, motif, one, links, fills)
                 figures = [
-                    replace(figure, areas=lines.areas(figure.areas), lines=lines.lines(figure.lines))
+                    replace(
+                        figure,
+                        areas=back.apply(lines.areas(figure.areas)),
+                        lines=back.apply(lines.lines(figure.lines)),
+                    )
                     for figure in shown
                 ]
                 drawn[name] = _multiplied(Laid(figures, ONE), orbit, finest)

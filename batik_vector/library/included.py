@@ -1,7 +1,8 @@
 """The samples and the starters: patterns that every library holds, and nobody can change.
 
 What was measured of them stands in ``included.jsonl`` beside this file, a line for each, so that they are
-found by their features at once; ``make golden`` writes it. Their recipes are part of the package.
+found by their features at once, and small pictures in ``thumbnails``, so that they are seen at once; ``make
+golden`` writes both. Their recipes are part of the package.
 """
 
 from __future__ import annotations
@@ -20,6 +21,9 @@ if TYPE_CHECKING:
 
 HERE = Path(__file__).parent
 MEASURED = HERE / "included.jsonl"
+THUMBNAILS = HERE / "thumbnails"
+DIGEST = "Recipe"
+"""Under which name a small picture has the digest of its recipe."""
 FOLDERS = {
     "sample": (HERE / "samples", HERE.parents[1] / "samples"),
     "starter": (HERE.parent / "starters",),
@@ -50,6 +54,28 @@ def digest(path: Path) -> str:
         if f'"{each.name}"' in text
     ]
     return hashlib.sha256("\0".join(parts).encode("utf-8")).hexdigest()
+
+
+def thumbnail_path(name: str) -> Path:
+    """Return where the small picture of a recipe is kept."""
+    return THUMBNAILS / f"{name}.png"
+
+
+def thumbnail(name: str, text: str | None = None) -> bytes:
+    """Return the small picture of a recipe as PNG; empty where none was drawn of what it says now.
+
+    Args:
+        name: of a sample or a starter, or of anything else.
+        text: of the recipe as it is to be shown; as its file has it when left out.
+    """
+    path = dict(paths()).get(name)
+    kept = thumbnail_path(name)
+    if path is None or not kept.is_file():
+        return b""
+    if text is not None and text != path.read_text(encoding="utf-8").replace("\r\n", "\n"):
+        return b""
+    data = kept.read_bytes()
+    return data if f"{DIGEST}\0{digest(path)}".encode() in data[:400] else b""
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import enum
 from dataclasses import field
 from typing import Annotated, TypeAlias
 
@@ -20,6 +21,17 @@ Place2D: TypeAlias = tuple[
     Annotated[Length, Between(-MAX_SIDE_MM, MAX_SIDE_MM)],
     Annotated[Length, Between(-MAX_SIDE_MM, MAX_SIDE_MM)],
 ]
+
+
+class Mirror(enum.StrEnum):
+    """What of a placement changes sides."""
+
+    ACROSS = "across"
+    """Left and right."""
+    DOWN = "down"
+    """Above and below."""
+    BOTH = "both"
+    """All: it is turned by half a turn, marks of a toss with their places."""
 
 
 @frozen(kw_only=True)
@@ -45,6 +57,10 @@ class Placement:
         Place2D | None, Says("where the layout's origin lies; the middle of the repeat when left out")
     ] = None
     turn: Annotated[float, Between(-360, 360), Says("degrees the whole is turned")] = 0.0
+    mirror: Annotated[
+        Mirror | None,
+        Says("which sides of the whole change places, before it is turned; those of a toss in its repeat"),
+    ] = None
     ink: Annotated[str, Says("ink of the elements that name none; needed where there are several")] = ""
     fill_with: Annotated[
         AnyFill | None, Says("marks that fill the elements which have no fill of their own (isen)")
@@ -113,7 +129,7 @@ class Placement:
                 "fill_with is missing: a ground is filled with marks, expected them, such as "
                 'fill_with = { kind = "cecek" }'
             )
-        for key in ("motif", "width", "scale", "at", "turn", "gap", "symmetry", "phase", "region"):
+        for key in ("motif", "width", "scale", "at", "turn", "mirror", "gap", "symmetry", "phase", "region"):
             value = getattr(self, key)
             if value not in (None, "", 0.0, (0.0, 0.0), ()):
                 shown = (

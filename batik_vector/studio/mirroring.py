@@ -1,7 +1,7 @@
-"""A design mirrored: in what a recipe can say, for there is no key that mirrors a placement.
+"""A design mirrored, in the plainest words that a recipe has for it.
 
-A motif that is its own mirror image is set out by the mirrored layout; of any other each copy is mirrored, as
-a spot of a free layout.
+A motif that is its own mirror image is set out by the mirrored layout; any other placement, and what fills
+the repeat, gets a ``mirror``.
 """
 
 from __future__ import annotations
@@ -16,19 +16,18 @@ from typing import Any
 import numpy as np
 import shapely
 
+from batik_vector.artwork import DropAxis
 from batik_vector.errors import Fault, RecipeError
 from batik_vector.geometry.maps.affine import Affine
 from batik_vector.geometry.maps.affines import Affines
 from batik_vector.recipe.figures import draw, size_of
 from batik_vector.recipe.look import Dress
 from batik_vector.recipe.motif import Motif
-from batik_vector.recipe.placement import Placement
+from batik_vector.recipe.placement import Mirror, Placement
 from batik_vector.recipe.references import Path, dotted
 from batik_vector.studio.drafts import Draft, Where, parsed
-from batik_vector.tiling.layouts import Bend, Lattice, Layout, Scattered, Stripes
+from batik_vector.tiling.layouts import Bend, FreeGround, Lattice, Layout, Scattered, Stripes
 
-MOST_SPOTS = 200
-"""Copies that a mirrored placement may be written out as."""
 SAME = 1e-6
 """How far maps may differ, in motif units, and be the same."""
 CLOSE = 1e-4
@@ -47,7 +46,7 @@ def mirrored(draft: Draft, path: Where = (), *, upright: bool = True) -> Draft:
         upright: whether left and right change places, or else above and below.
 
     Raises:
-        RecipeError: where the draft does not read, or a layout fills the repeat or bends its motif.
+        RecipeError: where the draft does not read, or has no such placement.
     """
     where = parsed(path) if path else ()
     recipe = draft.recipe
@@ -70,61 +69,80 @@ def _within(number: Any, places: tuple[Placement, ...]) -> bool:
 
 
 def _mirrored(draft: Draft, number: int, placement: Placement, upright: bool, *, whole: bool) -> Draft:
+    if isinstance(placement.layout, FreeGround):
+        # It fills what the others leave, and has no sides.
+        return draft
     place: Path = ("place", number)
     recipe = draft.recipe
-    flip = Affine.mirror(90 if upright else 0)
     unit = recipe.tiling.unit()
     motifs = [recipe.motif[name] for name in placement.motifs]
-    layout, aside = _layout(placement, motifs, flip, (unit.width, unit.height), dotted(place))
-    if layout is not None:
-        draft = draft.with_value((*place, "layout"), layout)
+    found = _layout(placement, motifs, upright, (unit.width, unit.height))
+    if found is None:
+        draft = _set(draft, (*place, "mirror"), _changed(placement.mirror, upright))
+    elif found[0] is not None:
+        draft = draft.with_value((*place, "layout"), found[0])
+    aside = 0.0 if found is None else found[1]
     if placement.turn:
         draft = draft.with_value((*place, "turn"), -placement.turn)
-    axis = 0 if upright else 1
+    if isinstance(placement.layout, Scattered):
+        # It fills the repeat, and is mirrored about the middle of that.
+        return _with_phase(draft, place, placement, upright) if whole else draft
     orbit = recipe.tiling.orbit(placement.symmetry, placement.phase, placement.spread)
     before = placement.at or orbit.middle or (unit.width / 2, unit.height / 2)
     at = [before[0] + aside, before[1]]
+    axis = 0 if upright else 1
     if whole:
         side = unit.width if upright else unit.height
-        at[axis] = (side - at[axis]) % side
+        at[axis] = side - at[axis]
+        if not unit.drop or (unit.axis == DropAxis.COLUMN) != upright:
+            # Where columns drop, one beside it would be higher.
+            at[axis] %= side
     if math.dist(at, before) > SAME:
         draft = draft.with_value((*place, "at"), at)
-    if whole and placement.phase[axis]:
-        draft = draft.with_value((*place, "phase", axis), -placement.phase[axis])
-    return draft
+    return _with_phase(draft, place, placement, upright) if whole else draft
+
+
+def _with_phase(draft: Draft, place: Path, placement: Placement, upright: bool) -> Draft:
+    axis = 0 if upright else 1
+    moved = placement.phase[axis]
+    return draft.with_value((*place, "phase", axis), -moved) if moved else draft
+
+
+def _set(draft: Draft, path: Path, value: str | None) -> Draft:
+    return draft.without(path) if value is None else draft.with_value(path, value)
+
+
+def _changed(mirror: Mirror | None, upright: bool) -> Mirror | None:
+    """Return which sides have changed places once two more do."""
+    sides = {None: set(), Mirror.ACROSS: {0}, Mirror.DOWN: {1}, Mirror.BOTH: {0, 1}}
+    wanted = sides[mirror] ^ {0 if upright else 1}
+    return next(each for each, held in sides.items() if held == wanted)
 
 
 def _layout(
-    placement: Placement, motifs: list[Motif], flip: Affine, cell: tuple[float, float], key: str
-) -> tuple[dict[str, Any] | None, float]:
-    """Return the table of the mirrored layout, or None where the one that is there will do.
+    placement: Placement, motifs: list[Motif], upright: bool, cell: tuple[float, float]
+) -> tuple[dict[str, Any] | None, float] | None:
+    """Return the table of the mirrored layout; None in its place where the one that is there will do.
 
-    Rows that stagger are mirrored by rows that stagger the other way: by how many mm the whole is moved along
-    x for that comes second.
+    Nothing where no layout says it. Rows that stagger are mirrored by rows that stagger the other way: by how
+    many mm the whole is moved along x for that comes second.
     """
-    layout = placement.layout
-    if isinstance(layout, Scattered | Stripes):
-        raise RecipeError([Fault("fills the repeat, and has no mirror image that a recipe can say", key)])
-    if not layout.spreads and placement.scale is None:
-        words = "a lattice is mirrored where its motif has a scale: expected scale instead of width"
-        raise RecipeError([Fault(words, key)])
+    layout, flip = placement.layout, Affine.mirror(90 if upright else 0)
+    measured = layout.spreads or placement.scale is not None
+    if placement.mirror is not None or isinstance(layout, Scattered | Stripes) or not measured:
+        return None
     scale = placement.scale or 1.0
     cell = cell[0] / scale, cell[1] / scale
     images = layout.images(cell)
-    if isinstance(images, Bend):
-        raise RecipeError([Fault("bends its motif, and has no mirror image that a recipe can say", key)])
+    if isinstance(images, Bend) or not all(_is_own_image(motif, flip) for motif in motifs):
+        return None
     turned = _turned_about(layout, flip)
-    same = all(_is_own_image(motif, flip) for motif in motifs)
     whole = cell if not layout.spreads else (math.inf, math.inf)
     for aside in (0.0, cell[0] / layout.columns / 2) if isinstance(layout, Lattice) else (0.0,):
         moved = Affine.translation((-aside, 0.0)) @ flip @ images @ flip
-        if same and _alike(moved, turned.images(cell), whole):
+        if _alike(moved, turned.images(cell), whole):
             return (None if turned == layout else _table(turned)), aside * scale
-    if len(motifs) > 1:
-        raise RecipeError([Fault("deals out several motifs that are not their own mirror images", key)])
-    if len(images) > MOST_SPOTS:
-        raise RecipeError([Fault(f"{len(images)} copies, expected at most {MOST_SPOTS} to be mirrored", key)])
-    return {"kind": "free", "spots": [_spot(flip @ each) for each in images]}, 0.0
+    return None
 
 
 def _turned_about(layout: Layout, flip: Affine) -> Layout:
@@ -174,29 +192,6 @@ def _is_own_image(motif: Motif, flip: Affine) -> bool:
 
 def _dress(element: Dress) -> tuple[Any, ...]:
     return tuple(getattr(element, name) for name in Dress.__dataclass_fields__)
-
-
-def _spot(image: Affine) -> dict[str, Any]:
-    """Return the table of a copy: turned, scaled and mirrored where that says it, or else a matrix."""
-    a, b, c, d, e, f = (float(f"{value:.9g}") + 0.0 for value in image.row)
-    size = math.hypot(a, c)
-    mirror = a * d - b * c < 0
-    sign = -1 if mirror else 1
-    if abs(b + sign * c) > SAME * size or abs(d - sign * a) > SAME * size:
-        return {"matrix": [a, b, c, d, e, f]}
-    spot: dict[str, Any] = {}
-    if abs(e) > SAME or abs(f) > SAME:
-        spot["shift"] = [_short(e), _short(f)]
-    if turn := _short(math.degrees(math.atan2(c, a))):
-        spot["turn"] = turn
-    if abs(size - 1) > SAME:
-        spot["scale"] = _short(size)
-    return spot | ({"mirror": True} if mirror else {})
-
-
-def _short(value: float) -> float | int:
-    found = float(f"{value:.6f}") + 0.0
-    return int(found) if found.is_integer() else found
 
 
 def _table(layout: Layout) -> dict[str, Any]:

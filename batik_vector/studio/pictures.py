@@ -36,8 +36,9 @@ EXPORT_LIMIT = 600.0
 FRONT, BACK, EXPORTING = "front", "back", "export"
 EXPORT = "\0export"
 """The lane of exports, for :meth:`Pictures.cancel`."""
-PATIENCE = 2.0
-"""Seconds after which what is under way makes room for a newer ask of its lane."""
+PATIENCE, USUAL = 2.0, 3.0
+"""Seconds after which what is under way makes room for a newer ask of its lane, or so many times what the
+last one took: on a machine that has much to do, whoever is ended sooner would never be done."""
 
 
 @frozen(eq=False)
@@ -91,6 +92,7 @@ class Pictures:
         self._turns: dict[str, asyncio.Lock] = {}
         self._newest: dict[str, int] = {}
         self._running: dict[str, tuple[_Hand, float]] = {}
+        self._took: dict[str, float] = {}
         self._closed = False
 
     def begin(self) -> None:
@@ -180,7 +182,10 @@ class Pictures:
             hand = self._hands[which]
             self._running[lane] = hand, time.perf_counter()
             try:
-                return await self._answered(hand, request_of(draft, wanted), limit, tell)
+                answer = await self._answered(hand, request_of(draft, wanted), limit, tell)
+                if not answer.faults:
+                    self._took[lane] = answer.seconds
+                return answer
             finally:
                 del self._running[lane]
 
@@ -195,7 +200,8 @@ class Pictures:
         if lane not in self._running:
             return
         hand, since = self._running[lane]
-        left = PATIENCE - (time.perf_counter() - since)
+        patience = max(PATIENCE, USUAL * self._took.get(lane, 0.0))
+        left = patience - (time.perf_counter() - since)
         number = hand.number
         loop = asyncio.get_running_loop()
         loop.call_later(max(left, 0), lambda: hand.stop("a newer one was asked for", number))

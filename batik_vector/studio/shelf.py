@@ -10,6 +10,7 @@ import asyncio
 from typing import TYPE_CHECKING, TypeVar
 
 from batik_vector.errors import BatikError, LibraryError
+from batik_vector.library.included import thumbnail
 from batik_vector.studio.aside import Aside
 
 if TYPE_CHECKING:
@@ -70,14 +71,14 @@ class Shelf:
         return await asyncio.to_thread(_asked, self.path, question)
 
     async def picture(self, reference: str) -> bytes:
-        """Return the small picture of a version as SVG.
+        """Return the small picture of a version, as SVG or PNG.
 
         Raises:
             BatikError: where it cannot be drawn.
         """
-        svg = await self._ask(lambda library: library.about(reference).svg)
-        if svg:
-            return svg
+        kept = await self._ask(lambda library: _kept(library, reference))
+        if kept:
+            return kept
         svg = await self._aside.run(PATIENCE, _drawn, self.path, reference)
         if not svg:
             raise LibraryError(f"{reference} could not be drawn")
@@ -89,6 +90,12 @@ def _asked(path: str | None, question: Callable[[Library], _T]) -> _T:
 
     with Library(path) as library:
         return question(library)
+
+
+def _kept(library: Library, reference: str) -> bytes:
+    """Return the picture that came with the package or was drawn before; empty where there is none."""
+    version = library.version(reference)
+    return thumbnail(version.name, version.text) or library.about(reference).svg
 
 
 def _drawn(path: str | None, reference: str) -> bytes:

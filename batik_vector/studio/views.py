@@ -7,13 +7,16 @@ another process do it.
 
 from __future__ import annotations
 
+import functools
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import field, replace
+from pathlib import Path
 from typing import Any
 
 from batik_vector.artwork import Artwork, Page
 from batik_vector.compiling.compiler import compile_cloth, compile_recipe
+from batik_vector.compiling.foretelling import foretold
 from batik_vector.errors import BatikError, Fault, RecipeError, TooLargeError
 from batik_vector.export.options import Profile, SvgOptions
 from batik_vector.export.svg import svg_text
@@ -21,11 +24,13 @@ from batik_vector.making.facts import facts_of, warnings
 from batik_vector.making.promised import asked_group
 from batik_vector.recipe.loading import located, read_recipe
 from batik_vector.recipe.model import Recipe, YardageSpec
+from batik_vector.studio.asking import SCREEN
 from batik_vector.studio.asking import View as View
 from batik_vector.studio.drafts import Draft
 from batik_vector.studio.draping import FORMS, draped
 from batik_vector.studio.lines import as_lines
 from batik_vector.tiling.cloth.field import field_page
+from batik_vector.tiling.tossing.falls import Falls
 from batik_vector.values import frozen
 
 METRE = 1000.0
@@ -35,6 +40,10 @@ FINE, ROUGH = 2000.0, 300.0
 """Parts of what is shown to which its edges are true: half a pixel of a large window, and some pixels."""
 FINER = 4.0
 """How many times finer than need be a tile may be that is at hand, and still serve another view."""
+WARM = Path(__file__).parents[1] / "starters" / "four-square.toml"
+"""Compiled at first, so that all is imported when somebody waits."""
+LARGE_SHARE = 0.6
+"""What effort takes in large recipes, of what it takes in the small one: measured on the samples."""
 MOST_SHOWN = 1_500_000
 """Vertices of a picture that a browser still moves."""
 
@@ -62,7 +71,8 @@ class Looker:
     """Makes views; the tile that was compiled last is kept, for another view of the same draft."""
 
     def __init__(self) -> None:
-        self._known: tuple[Any, Recipe, Artwork | None] | None = None
+        self._known: tuple[Any, Recipe, Artwork | None, bool] | None = None
+        self._falls = Falls()
 
     def look(self, draft: Draft, view: View, tell: Callable[[str], None] = lambda _: None) -> Shown:
         """Return what a view shows of a draft, or the faults that it has."""
@@ -102,14 +112,17 @@ class Looker:
         key = draft.text, draft.folder, draft.drawings
         if self._known is None or self._known[0] != key:
             recipe = read_recipe(draft.text, draft.stem, folder=draft.folder, drawings=dict(draft.drawings))
-            self._known = key, recipe, None
-        _, recipe, tile = self._known
+            self._known = key, recipe, None, False
+        _, recipe, tile, rough = self._known
+        # A sketch serves no other view, and need not be made twice.
+        sketched = rough and not view.rough
         looked_at = replace(recipe, tolerance=max(recipe.tolerance, _tolerance(recipe, view)))
         # Somewhat finer than need be is sooner there than what is compiled anew.
-        if tile is None or not tile.tolerance <= looked_at.tolerance <= FINER * tile.tolerance:
-            tile = compile_recipe(looked_at, progress=tell) if recipe.tile is not None else None
+        if sketched or tile is None or not tile.tolerance <= looked_at.tolerance <= FINER * tile.tolerance:
+            with self._falls.sketched() if view.rough else self._falls.kept():
+                tile = compile_recipe(looked_at, progress=tell) if recipe.tile is not None else None
         # What it names may change on the disk.
-        self._known = None if recipe.drawing else (key, recipe, tile)
+        self._known = None if recipe.drawing else (key, recipe, tile, view.rough)
         return looked_at, tile
 
     def _drawn(
@@ -131,6 +144,31 @@ class Looker:
                 "fewer repeats"
             )
         return svg_text(page, SHOWN), (page.cell.width, page.cell.height)
+
+
+def foreseen(draft: Draft, view: View) -> tuple[int, float]:
+    """Return about how many vertices a view's tile will have, and how many seconds it will take here and now.
+
+    Nothing is compiled but, once in a process, a small recipe by which the machine's pace is known.
+
+    Raises:
+        BatikError: where the draft cannot be read.
+    """
+    recipe = read_recipe(draft.text, draft.stem, folder=draft.folder, drawings=dict(draft.drawings))
+    ahead = foretold(replace(recipe, tolerance=max(recipe.tolerance, _tolerance(recipe, view))))
+    return ahead.vertices, ahead.effort * _pace()
+
+
+@functools.cache
+def _pace() -> float:
+    """Return about how many seconds a unit of effort takes."""
+    recipe = replace(read_recipe(WARM.read_text("utf-8")), tolerance=SCREEN)
+    compile_recipe(recipe)
+    # Slightly another one, for what is made of the same shapes is remembered.
+    other = replace(recipe, tolerance=0.8 * SCREEN)
+    begun = time.perf_counter()
+    compile_recipe(other)
+    return LARGE_SHARE * (time.perf_counter() - begun) / max(foretold(other).effort, 1.0)
 
 
 def _tiles(view: View) -> int:

@@ -13,7 +13,6 @@ import signal
 from collections.abc import Callable
 from dataclasses import asdict, field
 from multiprocessing.connection import Connection
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from batik_vector.errors import Fault
@@ -23,9 +22,6 @@ from batik_vector.values import frozen
 
 if TYPE_CHECKING:
     from batik_vector.studio.views import Looker
-
-WARM = Path(__file__).parents[1] / "starters" / "four-square.toml"
-"""Compiled at first, so that all is imported when somebody waits."""
 
 
 @frozen(eq=False)
@@ -73,7 +69,7 @@ def serve(pipe: Connection) -> None:
     """Be the process: answer until the pipe is closed."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-    from batik_vector.studio.views import Looker
+    from batik_vector.studio.views import WARM, Looker
 
     looker = Looker()
     looker.look(Draft(WARM.read_text("utf-8")), View(certify=True))

@@ -5,10 +5,12 @@ from __future__ import annotations
 import base64
 import contextlib
 import os
+import re
 import shutil
 import signal
 import subprocess
 import sys
+import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -22,21 +24,39 @@ SECONDS = 90_000
 class Studio:
     """The command, running, with a library and a state of its own."""
 
-    def __init__(self, folder: Path, *arguments: str, library: Path | None = None) -> None:
+    def __init__(
+        self, folder: Path, *arguments: str, library: Path | None = None, watch: bool = False
+    ) -> None:
         environment = os.environ | {
             "BATIK_LIBRARY": str(library or folder / "library"),
             "BATIK_STUDIO": str(folder / "state"),
             "PYTHONUNBUFFERED": "1",
+            # Whatever would open a page of the desktop's own.
+            "BROWSER": "true",
         }
-        call = [sys.executable, "-m", "batik_vector", "studio", "--no-browser", "--port", "0", *arguments]
-        with (folder / "said").open("w") as said:
-            self.process = subprocess.Popen(
-                call, stdout=subprocess.PIPE, stderr=said, text=True, env=environment
-            )
-        assert self.process.stdout is not None
-        self.address = self.process.stdout.readline().strip()
+        options = ["watch", "--page"] if watch else ["studio", "--no-browser", "--port", "0"]
+        call = [sys.executable, "-m", "batik_vector", *options, *arguments]
+        said = folder / "said"
+        with said.open("w") as told:
+            # Of `watch` reports are alone on stdout.
+            out = told if watch else subprocess.PIPE
+            self.process = subprocess.Popen(call, stdout=out, stderr=told, text=True, env=environment)
+        self.address = self._told_in(said) if watch else self._told()
         if not self.address:
-            raise AssertionError((folder / "said").read_text())
+            raise AssertionError(said.read_text())
+
+    def _told(self) -> str:
+        assert self.process.stdout is not None
+        return str(self.process.stdout.readline().strip())
+
+    def _told_in(self, said: Path) -> str:
+        until = time.monotonic() + SECONDS / 1000
+        while self.process.poll() is None and time.monotonic() < until:
+            found = re.search(r"^http://\S+$", said.read_text(), re.M)
+            if found:
+                return found[0]
+            time.sleep(0.1)
+        return ""
 
     @property
     def port(self) -> int:
@@ -53,10 +73,15 @@ class Studio:
 
 
 @contextlib.contextmanager
-def studio(folder: Path, *arguments: str, library: Path | None = None) -> Iterator[Studio]:
-    """Start a studio, and end it; it has a library of its own where none is given."""
+def studio(
+    folder: Path, *arguments: str, library: Path | None = None, watch: bool = False
+) -> Iterator[Studio]:
+    """Start a studio, and end it; it has a library of its own where none is given.
+
+    With ``watch`` it is the page of ``batik-vector watch --page``.
+    """
     folder.mkdir(exist_ok=True)
-    made = Studio(folder, *arguments, library=library)
+    made = Studio(folder, *arguments, library=library, watch=watch)
     try:
         yield made
     finally:

@@ -133,7 +133,7 @@ def test_what_takes_minutes_is_stopped_and_the_page_answers_meanwhile(opened: Pa
     before = page.picture()
     slow = Draft.read(ROOT / "samples" / "toss-leaves.toml").with_value("tile.size", ["1200 mm", "1200 mm"])
     page.drop("slow.toml", slow.text)
-    page.page.locator(".busy", has_text="so far").wait_for()
+    page.page.locator(".busy", has_text=re.compile(r"of about \d+ s|\d+ min are foreseen")).wait_for()
     page.tab("Recipe")
     page.page.locator(".cm-content", has_text="Tossed leaves").wait_for()
     assert page.picture() == before
@@ -154,3 +154,22 @@ def test_a_file_that_was_compiled_is_its_recipe_again(opened: Page, tmp_path: Pa
     after = opened.settled(before)
     opened.page.get_by_role("button", name="Undo").click()
     assert opened.settled(after) == before
+
+
+def test_what_is_saved_in_an_editor_is_seen_on_the_page_of_watch(chromium: Any, tmp_path: Path) -> None:
+    recipe, text = tmp_path / "mine.toml", (ROOT / "samples" / "figure-14a.toml").read_text()
+    recipe.write_text(text)
+    with studio(tmp_path / "own", str(recipe), "-o", str(tmp_path / "out"), watch=True) as made:
+        page = Page(chromium, made.address)
+        first = page.picture()
+        recipe.write_text(text.replace("petal  = { length = 1.0", "petal  = { length = 0.8"))
+        shorter = page.settled(first)
+        page.slider(PETAL).wait_for()
+        assert float(page.field(PETAL).input_value()) == 0.8
+        recipe.write_text(text.replace("petal  = { length = 1.0", "petal  = { length = 5000"))
+        page.page.locator(".faults", has_text="expected").wait_for()
+        assert page.picture() == shorter
+        page.page.get_by_role("button", name="Undo").click()
+        page.page.locator(".faults").wait_for(state="hidden")
+        assert not page.errors
+    assert (tmp_path / "out" / "mine.svg").is_file()

@@ -39,7 +39,13 @@ def apart(one: shapely.Geometry, other: shapely.Geometry) -> float:
 
 
 @pytest.mark.parametrize(
-    ("name", "upright"), [("group-p3", True), ("group-p3", False), ("lasem-bird", False), ("trellis", True)]
+    ("name", "upright"),
+    [
+        ("group-p3", True),
+        ("group-p3", False),
+        ("lasem-bird", False),
+        ("trellis", True),
+    ],
 )
 def test_a_design_is_mirrored_and_mirrored_back(name: str, upright: bool) -> None:
     draft = Draft.read(SAMPLES / f"{name}.toml")
@@ -63,10 +69,57 @@ def test_a_drop_falls_the_other_way_when_it_is_mirrored() -> None:
     assert mirrored(draft, "place[0]").value("tile.repeat") == "drop 1/3"
 
 
-def test_what_no_recipe_can_mirror_is_told() -> None:
-    for name, words in (("toss-leaves", "fills the repeat"), ("whirl", "bends its motif")):
-        with pytest.raises(RecipeError, match=words):
-            mirrored(Draft.read(SAMPLES / f"{name}.toml"))
+SIDED = """
+title = "Sided"
+tolerance = "0.1 mm"
+[motif.a]
+kind = "rosette"
+elements = [
+  { curve = { kind = "superellipse", a = 1, b = 1, length = 6, width = 2 }, radius = 3 },
+  { curve = { kind = "circle", radius = 1 }, radius = 4, turn = 40 },
+]
+[ink.wax]
+[[place]]
+motif = "a"
+scale = "1 mm"
+layout = LAYOUT
+[[place]]
+motif = "a"
+scale = "0.5 mm"
+layout = { kind = "toss", distance = "2 mm", count = 6 }
+[tile]
+size = ["60 mm", "40 mm"]
+repeat = "REPEAT"
+"""
+LAYOUTS = {
+    "toss": '{ kind = "toss", distance = "2 mm", count = 5 }',
+    "bent": '{ kind = "julian" }',
+    "stripes": '{ kind = "stripes", count = 2, flip = true, winding = [1, 1] }',
+    "lattice": '{ kind = "lattice", columns = 3, rows = 2, turn = 20 }',
+}
+
+
+@pytest.mark.parametrize("upright", [True, False], ids=["across", "down"])
+@pytest.mark.parametrize("layout", LAYOUTS)
+def test_every_kind_of_placement_is_mirrored(layout: str, upright: bool) -> None:
+    draft = Draft(SIDED.replace("LAYOUT", LAYOUTS[layout]).replace("REPEAT", "grid"))
+    other = mirrored(draft, upright=upright)
+    flip, move = ((-1, 1), (60, 0)) if upright else ((1, -1), (0, 40))
+    before, after = (painted(compiled(each))["wax"] for each in (draft, other))
+    assert apart(shapely.transform(before, lambda points: points * flip + move), after) < 1e-3
+    assert apart(before, after) > 0.1
+    assert mirrored(other, upright=upright).recipe.place == draft.recipe.place
+
+
+def test_mirrored_both_ways_is_turned_by_half_a_turn() -> None:
+    draft = Draft(SIDED.replace("LAYOUT", LAYOUTS["toss"]).replace("REPEAT", "drop 1/3"))
+    both = mirrored(mirrored(draft), upright=False)
+    assert both.value("place[0].mirror") == "both"
+    assert both.value("tile.repeat") == "drop 1/3"
+    assert mirrored(mirrored(both), upright=False).recipe.place == draft.recipe.place
+
+
+def test_a_placement_that_is_none_is_told() -> None:
     with pytest.raises(RecipeError, match="no placement"):
         mirrored(Draft(FLOWER), "motif.a")
 

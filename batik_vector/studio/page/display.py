@@ -16,6 +16,7 @@ from batik_vector.studio.asking import View
 from batik_vector.studio.page.live import Live
 from batik_vector.studio.page.parts import Soon, group, icon_button, say, text, toggled, word_button
 from batik_vector.studio.page.slide import Slide
+from batik_vector.studio.pictures import LIMIT
 
 if TYPE_CHECKING:
     from batik_vector.studio.drafts import Draft
@@ -40,6 +41,23 @@ CALM = 0.7
 """Seconds without a change after which the tile is measured for its verdict."""
 
 
+def outlook(vertices: int, seconds: float) -> str:
+    """Return in words what is foreseen of a picture: how long it will take, and how large it will be."""
+    if not vertices:
+        return " so far"
+    if seconds > LIMIT:
+        return (
+            f": about {_about(seconds / 60)} min are foreseen, and {LIMIT:g} s is the limit. A smaller tile "
+            "or a larger tolerance is sooner there"
+        )
+    return f" of about {_about(seconds)} s, about {_about(vertices):,} vertices"
+
+
+def _about(value: float) -> int:
+    """Return a number by its first digit, at least 1."""
+    return max(int(float(f"{value:.1g}")), 1)
+
+
 class Display:
     """The middle of the page."""
 
@@ -60,7 +78,8 @@ class Display:
         self._stage = ""
         self._wanted: tuple[Draft, View, int] | None = None
         self._slow = False
-        self._took = self._since = 0.0
+        self._since = 0.0
+        self._ahead = 0, 0.0
         self._again = Soon(self._say_busy)
         self._stem = ""
         self._turned = False
@@ -132,7 +151,7 @@ class Display:
         if draft.stem == self._stem or draft.faults:
             return
         self._stem = draft.stem
-        self._took = 0.0
+        self._slow = False
         cloth = draft.recipe.tile is None or bool(draft.recipe.border)
         if cloth and self.view == "tile":
             self.view, self._turned = "yardage", True
@@ -170,7 +189,8 @@ class Display:
             self._since = time.monotonic()
         self._asked += 1
         mine = self._asked
-        alarm = asyncio.get_running_loop().call_later(SLOW, lambda: self._tell_busy(mine))
+        self._ahead = 0, 0.0
+        alarm = asyncio.get_running_loop().call_later(SLOW, lambda: self._tell_busy(mine, draft, view))
         try:
             picture = await self.session.images.ask(draft, view, lane=self.client.id, tell=self._tell_stage)
         finally:
@@ -184,9 +204,18 @@ class Display:
         elif mine == self._asked:
             self._tell_faults((Fault("cancelled"),))
 
-    def _tell_busy(self, asked: int) -> None:
+    def _tell_busy(self, asked: int, draft: Draft, view: View) -> None:
         if asked == self._asked:
             self._show_busy(True)
+            background_tasks.create(self._foresee(asked, draft, view))
+
+    async def _foresee(self, asked: int, draft: Draft, view: View) -> None:
+        """Find out what is to come while it is on its way."""
+        ahead = await self.session.foreseen(draft, view)
+        if asked == self._asked:
+            self._ahead = ahead
+            if self.busy.visible:
+                self._say_busy()
 
     def _tell_stage(self, stage: str) -> None:
         self._stage = stage
@@ -194,11 +223,11 @@ class Display:
             self._say_busy()
 
     def _say_busy(self) -> None:
-        """Tell what is done, for how long by now, and how long the last picture took."""
+        """Tell what is done, for how long by now, and what is to come."""
         if not self.busy.visible or self.client.is_deleted:
             return
-        usual = f" of about {self._took:.0f} s" if self._took > SLOW else " so far"
-        say(self.stage_words, f"{self._stage or 'waiting'}, {time.monotonic() - self._since:.0f} s{usual}")
+        words = f"{self._stage or 'waiting'}, {time.monotonic() - self._since:.0f} s"
+        say(self.stage_words, words + outlook(*self._ahead))
         self._again(1.0)
 
     def _show_busy(self, on: bool) -> None:
@@ -220,15 +249,17 @@ class Display:
         self._tell_faults(picture.faults)
         if not picture.svg:
             return
-        self._took = picture.seconds
-        self._slow = self._took > FOLLOWS
+        sketch = picture.view.rough
+        if not sketch:
+            # How long a sketch took says nothing of what it stands for.
+            self._slow = picture.seconds > FOLLOWS
         facts = picture.facts
         width, height = facts["cell_mm"]
         # Told by the picture's own way, for the page's elements would keep the browser busy.
         words = {
             "size": f"{width:g} × {height:g} mm",
             "counted": f"{facts.get('vertices', 0):,} vertices",
-            "seconds": f"drawn in {picture.seconds * 1000:.0f} ms",
+            "seconds": f"{'sketched' if sketch else 'drawn'} in {picture.seconds * 1000:.0f} ms",
         }
         certified = picture.draft is self._certified
         head = {"guides": self._guides(facts), "words": words, "certified": certified}

@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from batik_vector.errors import Fault
+from batik_vector.errors import BatikError, Fault
 from batik_vector.studio import changes, drops
 from batik_vector.studio.aside import Aside
 from batik_vector.studio.drafts import Draft, parsed
@@ -18,11 +18,14 @@ from batik_vector.studio.saving import Saving, fingerprint, save
 from batik_vector.studio.shelf import Shelf
 
 if TYPE_CHECKING:
+    from batik_vector.studio.asking import View
     from batik_vector.studio.offers import Offer
     from batik_vector.studio.page.live import Live
 
 KEPT = 32
 """Pictures that browsers can still ask for."""
+FORESIGHT = 20.0
+"""Seconds after which nobody wants to be told any more how long it will take."""
 PRESSED = 1.0
 """Seconds within which another press of a key belongs to the same step."""
 INCLUDED = ("sample/", "starter/")
@@ -291,6 +294,15 @@ class Session:
         draft, words = await self.aside.run(drops.PATIENCE, drops.taken_in, self.draft, name, data)
         self.alter(words, lambda _: draft)
         return words
+
+    async def foreseen(self, draft: Draft, view: View) -> tuple[int, float]:
+        """Return about how many vertices a picture will have, and seconds it will take; zeros if unknown."""
+        from batik_vector.studio.views import foreseen
+
+        try:
+            return await self.aside.run(FORESIGHT, foreseen, draft, view)
+        except BatikError:
+            return 0, 0.0
 
     def suggested_name(self) -> str:
         """Return a name to save under."""

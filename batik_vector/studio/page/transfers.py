@@ -29,11 +29,12 @@ def add_routes(app: FastAPI, session: Session) -> None:
 
     async def thumbnail(request: Request) -> Response:
         try:
-            svg = await session.shelf.picture(request.query_params.get("name", ""))
+            data = await session.shelf.picture(request.query_params.get("name", ""))
         except BatikError as error:
             return Response(f"{error}\n", 404, media_type="text/plain")
         # A version never changes.
-        return Response(svg, media_type="image/svg+xml", headers={"cache-control": "max-age=86400"})
+        kind = "image/png" if data.startswith(b"\x89PNG") else "image/svg+xml"
+        return Response(data, media_type=kind, headers={"cache-control": "max-age=86400"})
 
     async def drop(request: Request) -> Response:
         try:

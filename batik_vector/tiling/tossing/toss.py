@@ -3,22 +3,29 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Hashable
 from dataclasses import replace
 from functools import partial
+from typing import TypeAlias
 
 import numpy as np
 import shapely
 
 from batik_vector.artwork import Geometries
 from batik_vector.errors import GeometryError, TooLargeError
+from batik_vector.geometry import work
 from batik_vector.geometry.maps.affine import IDENTITY, Affine
 from batik_vector.geometry.maps.affines import Affines, turns
 from batik_vector.tiling.layouts.grounds import Pack, Scattered, Toss
+from batik_vector.tiling.torus import remembered
 from batik_vector.tiling.torus.torus import as_steps, to_mm
 from batik_vector.tiling.tossing.darts import Dice, Rules, Spacing, thrown
+from batik_vector.tiling.tossing.falls import Falls, opened
 from batik_vector.tiling.tossing.marks import Field, Kit, Poses
+from batik_vector.tiling.tossing.outlines import outline
 from batik_vector.tiling.tossing.packing import Asked, packed_on
 from batik_vector.tiling.tossing.plan import Plan
+from batik_vector.tiling.tossing.report import TossReport
 from batik_vector.tiling.tossing.scatter import Scatter, Torus
 from batik_vector.tiling.tossing.settling import settled
 from batik_vector.units import STEPS_PER_MM, format_mm
@@ -26,14 +33,6 @@ from batik_vector.values import frozen
 
 MOST_MARKS = 20_000
 """Marks of one toss. A cloth of more is a ground: smaller, and repeated."""
-
-OUTLINE_SHARE, PACKED_SHARE = 1 / 400, 1 / 2000
-"""How far an outline may be simplified, as a share of the breadth of a mark; see :func:`outline`. What it
-stands beyond the mark is lost to a packing."""
-
-NOTCH_SHARE = 0.08
-"""Half the breadth of the notches in a mark, as a share of its own, that are closed to others: nobody sees
-a bud between two petals as a bud."""
 
 ROUNDS = 3
 """How often marks are settled and the holes that this opens thrown at again."""
@@ -60,27 +59,6 @@ EARLY_TRIES = 150
 
 
 @frozen
-class TossReport:
-    """What a toss has put down on one repeat.
-
-    Attributes:
-        motifs: their names, and ``counts`` how many there are of each, images under the symmetry included.
-        covers: share of the repeat that the marks cover.
-        per_m2: marks per square metre of cloth.
-        distance: the least gap in mm between two marks of it, or one and what it keeps clear of, measured
-            across the seam as well. A little more than asked for, as outlines are rounded outwards.
-        darts: how many were thrown, or places tried of a packing.
-    """
-
-    motifs: tuple[str, ...]
-    counts: tuple[int, ...]
-    covers: float
-    per_m2: float
-    distance: float
-    darts: int
-
-
-@frozen
 class Marks:
     """The motifs of a toss as they are at their least size, each in its own frame, in mm.
 
@@ -94,6 +72,10 @@ class Marks:
     reach: float = 0.0
 
 
+Fallen: TypeAlias = tuple[Poses, Field, TossReport]
+"""How the marks of a toss lie, one of each: their poses, the marks, and the report."""
+
+
 @frozen
 class Tossed:
     """A finished toss.
@@ -102,28 +84,13 @@ class Tossed:
         copies: for each motif the maps that carry it, at its least size in mm, to its places on cloth.
         field: all marks in grid steps, images under the symmetry included, translates not.
         report: how it went.
+        over: the map, its own inverse, that carries the field to its place on cloth.
     """
 
     copies: tuple[Affines, ...]
     field: Field
     report: TossReport
-
-
-def outline(body: shapely.Geometry, distance: float, slack: float, packed: bool = False) -> shapely.Geometry:
-    """Return a coarse shape that holds a mark (mm) and as much as it may stand beyond its body.
-
-    Holes are filled and narrow notches closed, so that marks lie beside one another and not inside. Those
-    that are packed nestle: of them only such notches are closed as nothing has room in.
-    """
-    low_x, low_y, high_x, high_y = shapely.bounds(body)
-    breadth = math.hypot(high_x - low_x, high_y - low_y)
-    close = distance / 2 if packed else max(distance / 2, NOTCH_SHARE * breadth)
-    closed = shapely.buffer(shapely.buffer(body, close, quad_segs=4), -close, quad_segs=4)
-    filled = shapely.union_all(shapely.polygons(shapely.get_exterior_ring(shapely.get_parts(closed))))
-    step = max(breadth * (PACKED_SHARE if packed else OUTLINE_SHARE), slack / 2 if packed else slack)
-    # Four pieces to a quarter turn reach to 0.98 of the radius, and simplifying takes off a step at most.
-    grown = shapely.buffer(shapely.union(filled, body), slack + 1.1 * step, quad_segs=4)
-    return shapely.simplify(grown, step * 0.95)
+    over: Affine = IDENTITY
 
 
 def _whole(marks: Geometries) -> Geometries:
@@ -156,21 +123,83 @@ def toss(spec: Scattered, marks: Marks, torus: Torus, taken: Field, seed: int) -
     _refuse_too_many(spec, kit, torus)
     _refuse_impossible(spec, kit, torus)
     scatter = Scatter(torus, kit, spec.size[1] / spec.size[0], taken)
-    dice = Dice(seed if spec.seed is None else spec.seed)
+    seed = seed if spec.seed is None else spec.seed
+    falls = opened()
+    if falls is not None and falls.sketching:
+        return _sketched(scatter, spec, marks, seed, falls)
+    poses, field, report = _fallen(scatter, spec, marks, seed)
+    scatter.set(poses, field, 0.0)
+    if falls is not None:
+        falls.note(_words(spec, marks, torus, seed), poses, report)
+    return _tossed(scatter, report)
+
+
+def _tossed(scatter: Scatter, report: TossReport) -> Tossed:
+    field = Field.joined([scatter.field.moved(operation) for operation in scatter.torus.operations])
+    motifs = range(len(scatter.kit.outlines))
+    return Tossed(tuple(_copies(scatter, motif) for motif in motifs), field, report)
+
+
+def _words(spec: Scattered, marks: Marks, torus: Torus, seed: int) -> Hashable:
+    """Return in what words a toss is asked for: all of it but the shapes of its marks."""
+    stretch = None if torus.stretch is None else torus.stretch.tobytes()
+    return spec, marks.names, torus.lattice, torus.operations, stretch, seed
+
+
+def _sketched(scatter: Scatter, spec: Scattered, marks: Marks, seed: int, falls: Falls) -> Tossed:
+    """Let marks stay where they fell, those left out that are in the way; see :mod:`falls`."""
+    known = falls.known(_words(spec, marks, scatter.torus, seed))
+    if known is None:
+        poses, field, report = _fallen(scatter, _hasty(spec), marks, seed)
+    else:
+        poses, report = known
+        field = scatter.marks(poses)
+        scatter.set(Poses.none(), scatter.field, scatter.largest)
+        free = scatter.clear(field, 0.0, 0.0)
+        poses, field = poses.take(free), field.take(free).owned(np.arange(int(free.sum())))
+    scatter.set(poses, field, 0.0)
+    return _tossed(scatter, report)
+
+
+def _hasty(spec: Scattered) -> Scattered:
+    return replace(spec, settle=0) if isinstance(spec, Toss) else spec
+
+
+def _fallen(scatter: Scatter, spec: Scattered, marks: Marks, seed: int) -> Fallen:
+    """Throw until the scatter is as the spec asks. What was thrown at the very same before is remembered."""
+    # The same words and shapes fall in the same way; discs hang on the kit, and not on the shapes alone.
+    shapes = remembered.interned(np.concatenate([scatter.kit.outlines, marks.bodies, scatter.taken.shapes]))
+    how = "toss", _words(spec, marks, scatter.torus, seed), scatter.taken.discs.tobytes()
+    rows = remembered.identities(shapes)[:, None]
+    asked = remembered.Asked[tuple[work.Share, Fallen]].together(_known_by(how), rows, (shapes,))
+    if (known := asked.found[0]) is not None:
+        work.spend_again(known[0])
+        return known[1]
+    before = work.counted() or (0.0,) * 4
     if isinstance(spec, Toss):
-        darts = _filled(scatter, spec, marks, dice)
+        darts = _filled(scatter, spec, marks, Dice(seed))
     else:
         rules = _rules(spec, len(marks.names))
         plan = Plan.of(spec, marks.bodies, rules, scatter)
-        asked = Asked(rules, spec.distance * STEPS_PER_MM, spec.tries, plan.wanted)
-        darts = packed_on(scatter, asked, dice)
+        packing = Asked(rules, spec.distance * STEPS_PER_MM, spec.tries, plan.wanted)
+        darts = packed_on(scatter, packing, Dice(seed))
     _check_count(spec, scatter, marks)
-    field = Field.joined([scatter.field.moved(operation) for operation in torus.operations])
-    return Tossed(
-        tuple(_copies(scatter, motif) for motif in range(len(kit.outlines))),
-        field,
-        _report(scatter, spec, marks, darts),
-    )
+    poses, field = scatter.poses, scatter.field
+    fallen = poses, field, _report(scatter, spec, marks, darts)
+    spent, vertices, crossings, pairs = np.subtract(work.counted() or before, before).tolist()
+    size = int(shapely.get_num_coordinates(field.shapes).sum())
+    if size <= remembered.KEPT_VERTICES:
+        asked.keep([0], [((spent, vertices, crossings, pairs), fallen)], [size])
+    return fallen
+
+
+def _known_by(how: Hashable) -> Hashable:
+    """Return what a fall is known by, or None: what is built in Python may hold lists."""
+    try:
+        hash(how)
+    except TypeError:
+        return None
+    return how
 
 
 def _check_distance(spec: Scattered, torus: Torus) -> None:

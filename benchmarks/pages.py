@@ -1,0 +1,169 @@
+"""From a slider's input to the new picture in the browser, ours beside peers: one line of JSON.
+
+python -m benchmarks.pages
+
+The studio, a page of Bokeh's server, and a notebook of ipywidgets and matplotlib that voila serves, each in a
+tab of the same Chromium, show the four-square flower with a slider for the length of its petals. In every
+round each is given a new value in turn, so that whatever else the machine does falls on all alike; peers by
+the key that their slider listens to. The time runs in the browser: until the frame after the new picture is
+in the page; of Bokeh, which draws in its own time, until the frame after its new data are. What peers draw
+are curves alone, 15,200 points; nothing is cut, welded or gapped.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import math
+import os
+import socket
+import statistics
+import subprocess
+import tempfile
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+from benchmarks.timing import ROOT
+from tests.clients.studio import SECONDS, Page, browser, studio
+
+PAGES = ROOT / ".venv-bench-pages" / "bin" / "python"
+PEERS = ROOT / "benchmarks" / "peers"
+SAMPLE, SLIDER = ROOT / "samples" / "four-square.toml", "motif.flower.petal.length"
+WARM, ROUNDS = 3, 15
+
+OWN = """
+async ([path, value]) => {
+  const slider = document.querySelector(`[data-path="${path}"] .q-slider`);
+  const before = studio.state.shown, begun = performance.now();
+  getElement(Number(slider.id.slice(1))).move(value);
+  while (studio.state.shown === before) {
+    if (performance.now() - begun > 20000) return null;
+    await new Promise(requestAnimationFrame);
+  }
+  return studio.state.at - begun;
+}
+"""
+HANDLE = """
+const handle = (root) => root.querySelector(".noUi-handle")
+  || [...root.querySelectorAll("*")].map((each) => each.shadowRoot && handle(each.shadowRoot)).find(Boolean);
+const press = () => handle(document).dispatchEvent(
+  new KeyboardEvent("keydown", { key: "ArrowRight", bubbles: true, cancelable: true }));
+const frame = () => new Promise(requestAnimationFrame);
+"""
+BOKEH = f"""
+async () => {{
+  {HANDLE}
+  const source = Bokeh.documents[0].get_model_by_name("flower"), begun = performance.now();
+  const changed = new Promise((done) => source.connect(source.properties.data.change, done));
+  press();
+  await Promise.race([changed, new Promise((done) => setTimeout(done, 20000))]);
+  await frame();
+  return performance.now() - begun;
+}}
+"""
+IPYWIDGETS = f"""
+async () => {{
+  {HANDLE}
+  const drawn = () => document.querySelector("img[src^='data:image']");
+  const before = drawn().src, begun = performance.now();
+  press();
+  while (!drawn() || drawn().src === before || !drawn().complete) {{
+    if (performance.now() - begun > 20000) break;
+    await frame();
+  }}
+  await frame();
+  return performance.now() - begun;
+}}
+"""
+
+
+@contextlib.contextmanager
+def served(*command: str) -> Iterator[str]:
+    """Start a peer's server at a free port, which its command names as {port}; yield its address."""
+    with socket.create_server(("127.0.0.1", 0)) as free:
+        port = free.getsockname()[1]
+    environment = os.environ | {"PYTHONPATH": str(ROOT)}
+    call = [str(PAGES), *(word.replace("{port}", str(port)) for word in command)]
+    process = subprocess.Popen(call, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    try:
+        yield f"http://127.0.0.1:{port}"
+    finally:
+        process.terminate()
+        process.wait(timeout=60)
+
+
+def notebook(folder: Path) -> Path:
+    """Write the notebook of ipywidgets; return its path."""
+    source = (PEERS / "ipywidgets_cell.py").read_text(encoding="utf-8")
+    # What a notebook shows is what its last line says, and this module ends in one.
+    cell: dict[str, Any] = {
+        "cell_type": "code",
+        "id": "one",
+        "metadata": {},
+        "execution_count": None,
+        "outputs": [],
+    }
+    lines = source.replace("from __future__ import annotations\n", "%matplotlib inline\n").splitlines(True)
+    kernel = {"kernelspec": {"name": "python3", "display_name": "Python 3", "language": "python"}}
+    page = {"nbformat": 4, "nbformat_minor": 5, "metadata": kernel, "cells": [cell | {"source": lines}]}
+    path = folder / "flower.ipynb"
+    path.write_text(json.dumps(page), encoding="utf-8")
+    return path
+
+
+def opened(chromium: Any, address: str, ready: str) -> Any:
+    """Return a peer's page once its picture is there."""
+    context = chromium.new_context(viewport={"width": 1440, "height": 900})
+    context.set_default_timeout(SECONDS)
+    page = context.new_page()
+    for _ in range(120):
+        with contextlib.suppress(Exception):
+            page.goto(address)
+            break
+        page.wait_for_timeout(500)
+    page.wait_for_function(ready)
+    return page
+
+
+def measure(folder: Path) -> dict[str, list[float]]:
+    """Return milliseconds of each entrant, round by round."""
+    bokeh = "-m", "bokeh", "serve", str(PEERS / "bokeh_page.py"), "--port", "{port}", "--address", "127.0.0.1"
+    voila = "-m", "voila", str(notebook(folder)), "--no-browser", "--port={port}"
+    with (
+        browser() as chromium,
+        served(*bokeh, "--allow-websocket-origin", "127.0.0.1:{port}") as bokeh_address,
+        served(*voila) as voila_address,
+        studio(folder / "own", str(SAMPLE)) as made,
+    ):
+        ready = f"() => {{ {HANDLE} return %s && !!handle(document); }}"
+        first = opened(chromium, f"{bokeh_address}/bokeh_page", ready % "window.Bokeh && Bokeh.documents[0]")
+        second = opened(chromium, voila_address, ready % "document.querySelector(\"img[src^='data:image']\")")
+        own = Page(chromium, made.address)
+        own.slider(SLIDER).wait_for()
+        entrants: dict[str, tuple[Any, Callable[[int], tuple[Any, ...]]]] = {
+            "studio": (own.page, lambda step: (OWN, [SLIDER, 0.9 + 0.002 * (step + 1)])),
+            "bokeh": (first, lambda _: (BOKEH,)),
+            "ipywidgets": (second, lambda _: (IPYWIDGETS,)),
+        }
+        taken: dict[str, list[float]] = {name: [] for name in entrants}
+        for step in range(WARM + ROUNDS):
+            for name, (page, asked) in entrants.items():
+                # What is not in front draws no frames.
+                page.bring_to_front()
+                taken[name].append(float(page.evaluate(*asked(step)) or math.nan))
+    return {name: each[WARM:] for name, each in taken.items()}
+
+
+def told(taken: dict[str, list[float]]) -> dict[str, Any]:
+    """Return medians in milliseconds, and by how much each peer takes longer, within a round."""
+    found: dict[str, Any] = {f"{name}_ms": round(statistics.median(each), 1) for name, each in taken.items()}
+    for name in ("bokeh", "ipywidgets"):
+        ratios = [peer / own for peer, own in zip(taken[name], taken["studio"], strict=True)]
+        found[f"{name}_times"] = round(statistics.median(ratios), 1)
+    return found | {"rounds": ROUNDS, "load": round(os.getloadavg()[0], 1)}
+
+
+if __name__ == "__main__":
+    with tempfile.TemporaryDirectory(prefix="batik-pages-") as root:
+        print(json.dumps(told(measure(Path(root)))))
