@@ -28,6 +28,7 @@ NOT_PAGES = ("figures/README.md",)
 ELSEWHERE = {
     "README.md": "index.md",
     "samples/README.md": "gallery.md",
+    "samples/FIGURES.md": "paper.md",
     "benchmarks/README.md": "benchmarks.md",
 }
 """Pages of the repository that stand outside of docs/, and what the site calls them."""
@@ -39,7 +40,7 @@ MENU = {
     "Your job": "howto/designer howto/workshop howto/printer howto/cutter howto/plotter howto/programmer",
     "More on": "fills structures wax print pens cutting stencils plotting machines audit elsewhere library "
     "sweeps watch command",
-    "Reference": "recipe api mathematics plugins architecture benchmarks releasing",
+    "Reference": "recipe api mathematics paper plugins architecture benchmarks releasing",
 }
 """The pages as the side of the site lists them; others come behind what there is more on."""
 

@@ -27,7 +27,7 @@ FINER = 2
 """Drawn so much larger first: cairo's edges are coarse."""
 SHOWN = 230.0
 """Millimetres of cloth across a picture, or two repeats where those are more."""
-COLOURS = 44
+COLOURS = 36
 
 
 def sheet() -> bytes:

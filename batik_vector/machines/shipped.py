@@ -1,10 +1,10 @@
-"""The profiles that come with the program: a page of TOML each, beside this file."""
+"""The profiles that come with the program: a page of TOML each, in `profiles/`."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
-_FOLDER = Path(__file__).parent
+_FOLDER = Path(__file__).parent / "profiles"
 
 MACHINES = tuple(sorted(path.stem for path in _FOLDER.glob("*.toml")))
 """Their names."""

@@ -33,7 +33,7 @@ PANELS: Mapping[str, tuple[str, ...]] = {
     "pattern": ("motif",),
     "layout": ("place",),
     "tile": ("tile", ""),
-    "inks": ("ink",),
+    "inks": ("ink", "colourway"),
     "cloth": ("cloth", "yardage", "border"),
     "outputs": ("output",),
 }
@@ -199,7 +199,11 @@ class _Walk:
         is_set = place.said is not MISSING
         says = hint.says.text if hint.says else ""
         parts: dict[str, Any] = {"controls": (), "groups": (), "offers": ()}
-        if hint.item is not None:
+        if hint.item is not None and is_scalar(hint.item):
+            held = place.said if isinstance(place.said, dict) else {}
+            inside = ((key, inner(place, key)) for key in held)
+            parts["controls"] = tuple(self._control(each, (*path, key)) for key, each in inside if each)
+        elif hint.item is not None:
             parts["groups"] = tuple(self._members(place, path))
             parts["offers"] = offers(hint, path, self._tables)
         elif hint.one_of is not None or class_of(place) is not None:

@@ -152,7 +152,8 @@ def test_every_placement_names_an_ink_where_there_are_several() -> None:
 
 
 def test_names_that_no_file_could_show_are_refused() -> None:
-    found = faults(SMALL.replace("motif.dot", 'motif.""').replace('"dot"', '""') + '[ink."a\\u0000"]')
+    more = '[ink."a\\u0000"]\n[motif.""]\nkind = "rosette"\nelements = [{ curve = { kind = "circle" } }]\n'
+    found = faults(SMALL + more)
     assert [fault.split(": ", 2)[2] for fault in found] == [
         "expected a name of 1 to 80 printable characters"
     ] * 2

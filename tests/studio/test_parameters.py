@@ -152,7 +152,8 @@ KINDS = [control for control in controls(Draft(FLOWER), ()).values() if control.
 @pytest.mark.parametrize("control", KINDS, ids=lambda control: control.path)
 def test_every_kind_that_can_be_chosen_reads_at_once(control: Control) -> None:
     for kind in control.choices:
-        if kind == "svg":
+        # One needs a drawing; the other has no motif, but marks that fill it.
+        if kind in ("svg", "ground"):
             continue
         draft = Draft(FLOWER).with_value(control.path, kind)
         assert draft.value(control.path) == kind

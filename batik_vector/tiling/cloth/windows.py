@@ -43,14 +43,16 @@ class Filling:
     """How a window is filled.
 
     ``cut`` tells what becomes of whole marks that cross the window's edge: they are cut there, or left out.
-    ``corners`` are polygons at the window's corners that stay bare, in steps. ``piece`` is how many points
-    are handed over at once, about; ``tell`` is called with the share of the window that is done.
+    ``corners`` are polygons at the window's corners that stay bare, in steps. ``cut_away`` is what marks that
+    reach into them lose: less than these, where they are welded to what lies there. ``piece`` is how many
+    points are handed over at once, about; ``tell`` is called with the share of the window that is done.
     """
 
     cell: Cell
     window: Window
     cut: bool = True
     corners: Geometries = field(default_factory=lambda: np.empty(0, dtype=object))
+    cut_away: Geometries | None = None
     piece: int = PIECE
     tell: Callable[[float], None] = lambda share: None
 
@@ -181,7 +183,8 @@ def _without_corners(cut: Cuttings, filling: Filling, line: bool) -> Cuttings:
     if not len(over):
         return cut
     shapes = _shapes(cut.pieces.taken(cut.which[over], cut.shift[over]), line)
-    left = shapely.difference(shapes, shapely.union_all(filling.corners), grid_size=1.0)
+    away = filling.corners if filling.cut_away is None else filling.cut_away
+    left = shapely.difference(shapes, shapely.union_all(away), grid_size=1.0)
     found, source = (lines_of if line else polygons_of)(left, over)
     pieces = of_polylines(found) if line else of_polygons(shapely.orient_polygons(found))
     shift = cut.shift[source]

@@ -119,7 +119,7 @@ class Yardage:
         each = self.drawn[number]
         filling, weld = self._telling(each.ink), welds(each.ink)
         if weld and each.border_areas is not None:
-            filling = replace(filling, corners=self.joining_corners)
+            filling = replace(filling, cut_away=self.joining_corners)
         for piece in filled_areas(each.areas, filling, weld, each.border_areas, each.area_guard):
             yield piece.moved(*self.origin)
         if self.bar is not None:
