@@ -42,7 +42,7 @@ sbom: $(TOOLS_READY) ## write the bill of materials (CycloneDX): out/batik-vecto
 test: $(TOOLS_READY) ## run the tests; ONLY="tests/tiling tests/export": only those
 	$(PY) -m pytest $(WORKERS) -rs $(ONLY)
 
-test-clients: $(TOOLS_READY) $(CLIENTS_READY) ## open the files in Inkscape, LibreCAD, LinuxCNC, vpype, hp2xx, Chromium, poppler, mupdf, Ghostscript, qpdf
+test-clients: $(TOOLS_READY) $(CLIENTS_READY) site ## open the files in Inkscape, LibreCAD, LinuxCNC, vpype, hp2xx, Chromium, poppler, mupdf, Ghostscript, qpdf
 	$(PY) -m pytest $(WORKERS) -rs -m clients
 
 test-long: $(TOOLS_READY) ## run the random tests with many more examples
