@@ -29,5 +29,11 @@ html_theme_options = {
         "color-background-secondary": "#f6f2e8",
         "color-sidebar-background": "#f6f2e8",
     },
-    "dark_css_variables": {"color-brand-primary": "#b9c9e4", "color-brand-content": "#9fb6dc"},
+    # What light sets, dark has to set again: the theme lays one over the other.
+    "dark_css_variables": {
+        "color-brand-primary": "#b9c9e4",
+        "color-brand-content": "#9fb6dc",
+        "color-background-secondary": "#191d2a",
+        "color-sidebar-background": "#191d2a",
+    },
 }
