@@ -12,11 +12,14 @@ from numpy.typing import NDArray
 
 from batik_vector.artwork import violations
 from batik_vector.compiling.borders import compile_borders
+from batik_vector.compiling.compiler import compile_cloth
 from batik_vector.errors import RecipeError
 from batik_vector.geometry.curves import Circle, Superellipse
 from batik_vector.recipe.border import BorderSpec, ClothSide, Corner, Ends, RailSpec
+from batik_vector.recipe.loading import read_recipe
 from batik_vector.recipe.model import Placement, Recipe
 from batik_vector.recipe.motif import Element
+from batik_vector.tiling.cloth.field import collected
 from batik_vector.tiling.symmetry.friezes import FRIEZES
 from tests.frames import (
     CLOTH,
@@ -262,3 +265,33 @@ def test_a_placement_may_leave_the_friezes_symmetry_out() -> None:
     frames = [border(place, frieze="p2mm", corner="motif") for place in places]
     counts = [len(sound(compile_borders([frame], recipe(dot), cloth), cloth).areas) for frame in frames]
     assert counts[0] == 4 * counts[1]
+
+
+DOTTED = """
+[ink.wax]
+colour = "#7d9cc0"
+[motif.dot]
+kind = "rosette"
+elements = [{ curve = { kind = "circle", radius = 0.6 } }]
+[[place]]
+motif = "dot"
+scale = "1 mm"
+layout = { kind = "lattice", columns = 12, rows = 14, stagger = true }
+[tile]
+size = ["42 mm", "44 mm"]
+repeat = "half-drop"
+[yardage]
+width = "300 mm"
+length = "240 mm"
+phase = ["%s mm", "%s mm"]
+[[border]]
+size = ["34 mm", "46 mm"]
+corner = "bend"
+radius = "40 mm"
+rails = [{ at = "44.8 mm", width = "2.4 mm", ink = "wax" }]
+"""
+
+
+@pytest.mark.parametrize("phase", [(0, 0), (0.4, 0.3), (0.9, 0.1), (1.3, 1.7), (2.1, 0.8), (2.9, 2.4)])
+def test_marks_of_the_field_weld_to_a_rail_where_it_begins_to_bend(phase: tuple[float, float]) -> None:
+    assert violations(collected(compile_cloth(read_recipe(DOTTED % phase)))) == []
