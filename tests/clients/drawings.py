@@ -14,9 +14,12 @@ from batik_vector.recipe.loading import load_recipe
 from batik_vector.tiling.cloth.field import collected
 
 HERE = Path(__file__).parent
-ENOUGH = {"group-p4g", "group-p6m", "toss-fish", "ground-waves", "figure-05", "figure-14a"}
+ENOUGH = {
+    *("group-p4g", "group-p6m", "toss-fish", "ground-waves", "figure-05", "figure-14a"),
+    *("border-p1", "border-p11m", "border-p2mm"),
+}
 """Of series of samples that are written alike, those that programs are shown."""
-SERIES = ("group-", "toss-", "ground-", "figure-")
+SERIES = ("group-", "toss-", "ground-", "figure-", "border-")
 RECIPES = {
     path.stem: path
     for folder in (HERE / "recipes", HERE.parents[1] / "samples")
