@@ -260,6 +260,7 @@ PUT: dict[str, Put] = {
     "InkSpec": lambda data: data.setdefault("ink", {"ink": {}})[next(iter(data["ink"]))],
     "Element": _element,
     "Growth": _growth,
+    "Row": lambda data: _placed(data, "lereng").setdefault("rows", [{"kind": "dots", "height": 0.4}])[0],
     "Spot": lambda data: _layout("free")(data)["spots"][0],
     "Term": lambda data: _layout("ifs")(data)["maps"][0]["terms"][0],
     "YardageSpec": _yardage,

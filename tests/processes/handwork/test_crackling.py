@@ -194,6 +194,6 @@ def test_any_tile_keeps_its_seam(number: int) -> None:
         pytest.skip(str(error))
     if certify(page).faults:
         pytest.skip("it has faults of its own")
-    size = max(page.cell.width, page.cell.height)
-    done = cracked(page, density=size / 5, seed=number)
+    size = (page.cell.width * page.cell.height) ** 0.5
+    done = cracked(page, density=size / 6, seed=number)
     assert certify(done).faults == ()
