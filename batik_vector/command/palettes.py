@@ -7,7 +7,7 @@ from typing import Any
 import click
 
 from batik_vector.command.options import json_option, listed, set_option
-from batik_vector.command.telling import collecting, faults_told, reported, stages
+from batik_vector.command.telling import collecting, sheet_told
 from batik_vector.command.worksheets import SHEET_FORMATS
 
 
@@ -76,13 +76,7 @@ def colourways_command(recipe: str, as_json: bool, **asked: Any) -> None:
     The first is the recipe as it is written.
     """
     collecting()
-    with reported(as_json) as report:
-        with faults_told(report), stages(as_json) as tell:
-            report["recipes"].append(_made(recipe, tell, **asked))
-        if not as_json:
-            for each in report["recipes"]:
-                for path in each["files"]:
-                    click.echo(path, err=True)
+    sheet_told(as_json, lambda tell: _made(recipe, tell, **asked))
 
 
 def _made(

@@ -66,3 +66,19 @@ def collecting() -> None:
     if not gc.isenabled():
         gc.freeze()
         gc.enable()
+
+
+def sheet_told(as_json: bool, make: Callable[[Callable[[str], None]], dict[str, Any]]) -> None:
+    """Draw a sheet of one recipe and tell where it was written.
+
+    Args:
+        as_json: whether the report is printed in place of the paths.
+        make: draws it; it is given what tells the stage of work, and returns what is reported.
+    """
+    with reported(as_json) as report:
+        with faults_told(report), stages(as_json) as tell:
+            report["recipes"].append(make(tell))
+        if not as_json:
+            for each in report["recipes"]:
+                for path in each["files"]:
+                    click.echo(path, err=True)

@@ -7,7 +7,7 @@ from typing import Any
 import click
 
 from batik_vector.command.options import json_option, set_option
-from batik_vector.command.telling import collecting, faults_told, reported, stages
+from batik_vector.command.telling import collecting, sheet_told
 
 SHEET_FORMATS = ("svg", "pdf", "png")
 """As in :data:`batik_vector.making.sheets.FORMATS`."""
@@ -40,13 +40,7 @@ def worksheet_command(recipe: str, as_json: bool, **asked: Any) -> None:
     Each step has its picture, the area of wax, and the metres of line for each canting.
     """
     collecting()
-    with reported(as_json) as report:
-        with faults_told(report), stages(as_json) as tell:
-            report["recipes"].append(_made(recipe, tell, **asked))
-        if not as_json:
-            for each in report["recipes"]:
-                for path in each["files"]:
-                    click.echo(path, err=True)
+    sheet_told(as_json, lambda tell: _made(recipe, tell, **asked))
 
 
 def _made(

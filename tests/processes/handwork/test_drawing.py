@@ -8,15 +8,12 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from batik_vector import compile_recipe
 from batik_vector.artwork import Artwork, Layer, violations
 from batik_vector.certificate import certify
-from batik_vector.errors import BatikError, GeometryError
+from batik_vector.errors import GeometryError
 from batik_vector.machines import Machine
 from batik_vector.processes.handwork.options import HandProcess
-from batik_vector.recipe.loading import read_recipe
-from tests.processes.handwork.tiles import COTTON, SOGA, on_grid, rings, steps, tile
-from tests.random_recipes import recipe_text
+from tests.processes.handwork.tiles import COTTON, SOGA, on_grid, random_tile, rings, steps, tile
 from tests.thorough import examples, long
 
 
@@ -164,11 +161,6 @@ NUMBERS = range(3, 6003, 6)
 @long
 @pytest.mark.parametrize("number", NUMBERS[: examples(2, 8)])
 def test_any_tile_keeps_its_seam(number: int) -> None:
-    try:
-        page = compile_recipe(read_recipe(recipe_text(number)))
-    except BatikError as error:
-        pytest.skip(str(error))
-    if certify(page).faults:
-        pytest.skip("it has faults of its own")
+    page = random_tile(number)
     done = drawn(page, strength=number % 5 / 4, seed=number, reach=(4.0, 9.0, 20.0)[number % 3])
     assert certify(done).faults == ()

@@ -5,10 +5,14 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+import pytest
 import shapely
 
-from batik_vector import Artwork
+from batik_vector import Artwork, certify, compile_recipe
 from batik_vector.artwork import Cell, Geometries, Ink, Layer
+from batik_vector.errors import BatikError
+from batik_vector.recipe.loading import read_recipe
+from tests.random_recipes import recipe_text
 
 COTTON = Ink("cotton", "#f4efe2", 1.2)
 SOGA = Ink("soga", "#9a5a30", 1.2)
@@ -40,3 +44,14 @@ def on_grid(areas: Any) -> Geometries:
 
 def steps(areas: Geometries) -> Geometries:
     return np.asarray(shapely.transform(areas, lambda xy: np.rint(xy * 1000)), dtype=np.object_)
+
+
+def random_tile(number: int) -> Artwork:
+    """Return the tile of a random recipe; the test is skipped where there is none, or it is not sound."""
+    try:
+        page = compile_recipe(read_recipe(recipe_text(number)))
+    except BatikError as error:
+        pytest.skip(str(error))
+    if certify(page).faults:
+        pytest.skip("it has faults of its own")
+    return page
