@@ -45,8 +45,8 @@ test: $(TOOLS_READY) ## run the tests; ONLY="tests/tiling tests/export": only th
 test-clients: $(TOOLS_READY) $(CLIENTS_READY) site ## open the files in Inkscape, LibreCAD, LinuxCNC, vpype, hp2xx, Chromium, poppler, mupdf, Ghostscript, qpdf
 	$(PY) -m pytest $(WORKERS) -rs -m clients
 
-test-long: $(TOOLS_READY) ## run the random tests with many more examples
-	BATIK_LONG=1 $(PY) -m pytest $(WORKERS) -rs -m 'long and not clients'
+test-long: $(TOOLS_READY) ## run the random tests with many more examples; LONG=3: three times as many
+	BATIK_LONG=$(or $(LONG),1) $(PY) -m pytest $(WORKERS) -rs -m 'long and not clients'
 
 test-pythons: ## lint and test on PYTHON and on the newest that this machine has; ALL=1: on every one from 3.11 on
 	@tools/pythons.sh lint test

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import re
 from pathlib import Path
 
 import pytest
@@ -21,8 +22,13 @@ def picture(path: Path) -> bytes:
 
 @pytest.mark.clients
 @pytest.mark.parametrize("path", golden.samples(), ids=lambda path: path.stem)
-def test_the_picture_is_up_to_date(path: Path) -> None:
-    assert not golden.stale(golden.sample(path)), MEND
+def test_picture_and_words_are_up_to_date(path: Path) -> None:
+    """The gallery's or the figures', what the library knows, and the way of a pen."""
+    each = golden.sample(path)
+    assert not golden.stale(each), MEND
+    told = golden.entries(each)
+    missing = [page.name for page, entry in told.items() if entry not in page.read_text(encoding="utf-8")]
+    assert missing == [], MEND
 
 
 @pytest.mark.parametrize("path", golden.samples(), ids=lambda path: path.stem)
@@ -38,12 +44,21 @@ def test_the_sheet_of_the_starters_is_up_to_date() -> None:
 
 
 @pytest.mark.clients
-def test_what_is_written_of_the_samples_is_up_to_date() -> None:
-    """The gallery, the figures, what the library knows, and the ways of a pen; each sample compiles once."""
-    written = golden.pages([golden.sample(path) for path in golden.samples()])
-    assert [path.name for path, text in written.items() if path.read_text(encoding="utf-8") != text] == [], (
-        MEND
-    )
+@pytest.mark.parametrize(
+    ("name", "path"), [each for each in included.paths() if each[0].startswith("starter/")], ids=str
+)
+def test_what_the_library_knows_of_a_starter_is_up_to_date(name: str, path: Path) -> None:
+    assert golden.included_line(name, path) in included.MEASURED.read_text(encoding="utf-8"), MEND
+
+
+def test_every_sample_stands_on_its_page_in_turn() -> None:
+    for page in (golden.GALLERY, golden.FIGURES):
+        text = (golden.SAMPLES / page).read_text(encoding="utf-8")
+        shown = re.findall(r"^!\[.*\]\((.*)\.png\)$", text, re.MULTILINE)
+        figures = page == golden.FIGURES
+        wanted = [each for each in golden.samples() if (golden.section(each) == "figure") == figures]
+        assert shown == [each.stem for each in wanted]
+    assert list(included.known()) == [name for name, _ in included.paths()]
 
 
 @pytest.mark.parametrize("name", ["chrysanthemum-line", "kawung", "group-p6m"])

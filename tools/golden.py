@@ -221,15 +221,16 @@ def sheet_is_stale() -> bool:
     return not SHEET.exists() or not same(SHEET.read_bytes(), sheet())
 
 
+def included_line(name: str, path: Path, page: Artwork | Yardage | None = None) -> str:
+    """Return what is measured of a sample or starter, for the library to find it by."""
+    recipe, tile = load_recipe(path), page if isinstance(page, Artwork) else None
+    return included.written({name: (recipe, dict(measured(recipe, tile, pictures=False).features))})
+
+
 def included_page(found: list[Sample]) -> str:
-    """Return what is measured of samples and starters, for the library to find them by."""
+    """Return what is measured of samples and starters."""
     pages = {each.path: each.page for each in found}
-    known = {}
-    for name, path in included.paths():
-        page, recipe = pages.get(path), load_recipe(path)
-        tile = page if isinstance(page, Artwork) else None
-        known[name] = recipe, dict(measured(recipe, tile, pictures=False).features)
-    return included.written(known)
+    return "".join(included_line(name, path, pages.get(path)) for name, path in included.paths())
 
 
 def travel_page(found: list[Sample]) -> str:
@@ -245,6 +246,15 @@ def pages(found: list[Sample]) -> dict[Path, str]:
         included.MEASURED: included_page(found),
         travel.PAGE: travel_page(found),
     }
+
+
+def entries(each: Sample) -> dict[Path, str]:
+    """Return what one sample gives to the texts that are written from all."""
+    page = FIGURES if section(each.path) == "figure" else GALLERY
+    told = {SAMPLES / page: each.caption(), travel.PAGE: travel.row(each.path.stem, each.page)}
+    if each.path.suffix == ".toml":
+        told[included.MEASURED] = included_line(f"sample/{each.path.stem}", each.path, each.page)
+    return told
 
 
 def _packed(picture: Image.Image) -> Iterator[bytes]:

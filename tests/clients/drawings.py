@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import functools
+import itertools
+from collections.abc import Iterable
 from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 import shapely
@@ -13,6 +16,7 @@ from batik_vector.compiling.compiler import compile_cloth, compile_recipe
 from batik_vector.recipe.loading import load_recipe
 from batik_vector.tiling.cloth.field import collected
 
+Choice = TypeVar("Choice")
 HERE = Path(__file__).parent
 ENOUGH = {
     *("group-p4g", "group-p6m", "toss-fish", "ground-waves", "figure-05", "figure-14a"),
@@ -27,6 +31,11 @@ RECIPES = {
     if path.stem in ENOUGH or not path.stem.startswith(SERIES)
 }
 MOST_PIXELS = 2600
+
+
+def shared_out(choices: Iterable[Choice]) -> list[tuple[str, Choice]]:
+    """Return each drawing's name with one of the choices: these take turns, so that none sees too few."""
+    return list(zip(sorted(RECIPES), itertools.cycle(choices), strict=False))
 
 
 @functools.cache

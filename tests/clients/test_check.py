@@ -11,6 +11,7 @@ from batik_vector.command.checks import Found, Wishes, check_source
 from batik_vector.export import SvgOptions, render
 from batik_vector.importing.svg import read_tile
 from tests.clients import programs
+from tests.clients.drawings import shared_out
 
 TILES = Path(__file__).parents[1] / "certificate" / "broken"
 SAVED = {
@@ -56,7 +57,7 @@ def test_a_broken_tile_fails_as_inkscape_saves_it(tmp_path: Path, name: str) -> 
 
 
 @pytest.mark.clients
-@pytest.mark.parametrize("way", ["plain", "its own"])
+@pytest.mark.parametrize(("drawing", "way"), shared_out(["plain", "its own"]), indirect=["drawing"])
 def test_our_own_drawings_come_back_to_the_bit(drawing: Artwork, tmp_path: Path, way: str) -> None:
     svg = tmp_path / "drawing.svg"
     svg.write_bytes(render(drawing, "svg", SvgOptions()))

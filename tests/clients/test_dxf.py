@@ -14,7 +14,7 @@ from ezdxf.filemanagement import readfile
 from batik_vector.artwork import Artwork, Geometries
 from batik_vector.export import DxfOptions, DxfVersion, render
 from tests.clients import programs
-from tests.clients.drawings import outlines, per_mm
+from tests.clients.drawings import outlines, per_mm, shared_out
 from tests.clients.pictures import load, reference, stray
 
 FEW = 1e-3
@@ -28,7 +28,7 @@ def written(artwork: Artwork, folder: Path, version: DxfVersion) -> Path:
 
 
 @pytest.mark.clients
-@pytest.mark.parametrize("version", DxfVersion)
+@pytest.mark.parametrize(("drawing", "version"), shared_out(DxfVersion), indirect=["drawing"])
 def test_librecad_draws_the_outlines_in_place_and_true_size(
     drawing: Artwork, tmp_path: Path, version: DxfVersion
 ) -> None:
@@ -59,7 +59,7 @@ def test_a_mirrored_file_is_told(lopsided: Artwork, tmp_path: Path) -> None:
 
 
 @pytest.mark.clients
-@pytest.mark.parametrize("version", DxfVersion)
+@pytest.mark.parametrize(("drawing", "version"), shared_out(list(DxfVersion)[::-1]), indirect=["drawing"])
 def test_ezdxf_finds_nothing_to_mend(drawing: Artwork, tmp_path: Path, version: DxfVersion) -> None:
     audit = readfile(written(drawing, tmp_path, version)).audit()
     assert not audit.errors

@@ -11,7 +11,7 @@ from batik_vector.artwork import Artwork
 from batik_vector.export import PdfOptions, SvgOptions, render
 from batik_vector.tiling.cloth.field import with_bleed
 from tests.clients import programs
-from tests.clients.drawings import per_mm
+from tests.clients.drawings import per_mm, shared_out
 from tests.clients.pictures import differing, load, reference, shade_apart
 
 pytestmark = pytest.mark.clients
@@ -33,12 +33,10 @@ def written(artwork: Artwork, folder: Path, options: PdfOptions = VARIANTS["plai
     return path
 
 
-@pytest.mark.parametrize("viewer", VIEWERS.values(), ids=list(VIEWERS))
-def test_viewers_and_cairosvg_draw_the_same(
-    drawing: Artwork, tmp_path: Path, viewer: Callable[[Path, float], Path]
-) -> None:
+@pytest.mark.parametrize(("drawing", "viewer"), shared_out(VIEWERS), indirect=["drawing"])
+def test_viewers_and_cairosvg_draw_the_same(drawing: Artwork, tmp_path: Path, viewer: str) -> None:
     scale = per_mm(drawing)
-    picture = load(viewer(written(drawing, tmp_path), scale))
+    picture = load(VIEWERS[viewer](written(drawing, tmp_path), scale))
     known = reference(render(drawing, "svg"), scale)
     assert differing(picture, known) < ALIKE
     assert shade_apart(picture, known) < SAME_SHADE
