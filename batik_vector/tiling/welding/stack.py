@@ -23,7 +23,7 @@ from batik_vector.tiling.welding.cuts import cut, touched
 from batik_vector.tiling.welding.duplicates import aligned, drawn_once
 from batik_vector.tiling.welding.growth import grown_on_grid
 from batik_vector.tiling.welding.sheets import Laid, Pile, Sheet, joined
-from batik_vector.tiling.welding.weld import weld
+from batik_vector.tiling.welding.weld import weld, weld_changed
 from batik_vector.tiling.welding.wrapping import Borders, Lines, Torus
 from batik_vector.units import STEPS_PER_MM
 
@@ -273,12 +273,16 @@ def _merged(torus: Torus, drawn: Laid, ink_of: Index, inks: Sequence[Ink]) -> La
     """Weld the marks of an ink where they meet; an overlay keeps them, and drops exact repeats.
 
     What is thinner than the grid goes: from an overlay first, of which two may repeat one another but for it.
+    A slit that is filled may have run beside another mark, which then is welded, too.
     """
     over = np.array([ink.overlap == Overlap.OVERLAY for ink in inks], bool)
     ink = ink_of[drawn.sheet]
     mine = drawn.taken(~over[ink])
     copies, first = weld(torus.stock, mine.copies, ink_of[mine.sheet])
-    welded = Laid(torus.without_needles(copies), mine.sheet[first])
+    mine = Laid(torus.without_needles(copies), mine.sheet[first])
+    changed = np.flatnonzero(mine.copies.kind != copies.kind)
+    copies, first = weld_changed(torus.stock, mine.copies, ink_of[mine.sheet], changed)
+    welded = Laid(copies, mine.sheet[first])
     laid = drawn.taken(over[ink])
     laid = Laid(torus.without_needles(laid.copies), laid.sheet)
     kept = [

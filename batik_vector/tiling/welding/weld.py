@@ -53,19 +53,43 @@ def weld(stock: Stock, copies: Copies, group: Index | None = None) -> tuple[Copi
         group: shape (n,); only those of one group are joined. None joins all.
     """
     group = np.zeros(len(copies), np.intp) if group is None else group
-    origin = np.arange(len(copies))
-    pairs = _meeting(stock, copies, group, 0)
     # Joining moves crossings onto the grid, and may push an edge over a neighbour that it only came
     # near to; then these two are joined as well.
+    return _joined(stock, copies, np.arange(len(copies)), group, _meeting(stock, copies, group, 0))
+
+
+def weld_changed(stock: Stock, copies: Copies, group: Index, changed: Index) -> tuple[Copies, Index]:
+    """Join copies that were welded and have been changed since with those that they have come to overlap.
+
+    Args:
+        stock, copies, group: as for :func:`weld`, which also says what is returned.
+        changed: which copies are not what they were.
+    """
+    if not len(changed):
+        return copies, np.arange(len(copies))
+    origin = np.concatenate([np.delete(np.arange(len(copies)), changed), changed])
+    copies, group, known = copies.taken(origin), group[origin], len(origin) - len(changed)
+    return _joined(stock, copies, origin, group, _overlapping(stock, copies, group, known))
+
+
+def _joined(
+    stock: Stock, copies: Copies, origin: Index, group: Index, pairs: Indices
+) -> tuple[Copies, Index]:
+    """Join pairs of copies, and what overlaps for it; return them with their origins, ascending."""
     for _ in range(ROUNDS):
         if not len(pairs):
             break
         copies, first, single = _united(stock, copies, pairs)
         origin, group = origin[first], group[first]
-        pairs = _meeting(stock, copies, group, single)
-        pairs = pairs[stock.holds(overlap, copies.taken(pairs[:, 0]), copies.taken(pairs[:, 1]))]
+        pairs = _overlapping(stock, copies, group, single)
     order = np.argsort(origin, kind="stable")
     return copies.taken(order), origin[order]
+
+
+def _overlapping(stock: Stock, copies: Copies, group: Index, known: int) -> Indices:
+    """Return the pairs that share more than borders, but for those among the first ``known``."""
+    pairs = _meeting(stock, copies, group, known)
+    return pairs[stock.holds(overlap, copies.taken(pairs[:, 0]), copies.taken(pairs[:, 1]))]
 
 
 def overlap(a: Geometries, b: Geometries) -> NDArray[np.bool_]:

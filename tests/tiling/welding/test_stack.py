@@ -206,3 +206,23 @@ def replace_contours(recipe: Recipe) -> Recipe:
     (element,) = recipe.motif["m"].parts()
     assert isinstance(element, Element)
     return replace(recipe, motif={"m": Rosette(elements=(replace(element, contours=1),))})
+
+
+def test_what_a_filled_slit_comes_to_overlap_is_welded() -> None:
+    """The slit's edge runs past a mark that touched the slit's mouth in a point."""
+    slit = [
+        (58.429, 41.027),
+        (59.096, 40.514),
+        (59.057, 40.123),
+        (59.206, 41.609),
+        (61, 45),
+        (64, 38),
+        (57, 38),
+    ]
+    beside = [(59.096, 40.514), (59.1, 40.553), (59.103, 40.586), (59.053, 40.583), (59.011, 40.58)]
+    marks = array(shapely.Polygon(slit), shapely.Polygon(beside))
+    assert shapely.is_valid(marks).all()
+    assert not shapely.relate_pattern(*marks, "T********")
+    (layer,) = laid(Sheet("marks", Ink("wax", "#f4efe2", 2.0), marks))
+    assert len(layer.areas) == 1
+    assert layer.areas[0].area == pytest.approx(shapely.area(marks).sum(), abs=2e-3)
