@@ -222,7 +222,7 @@ def test_what_a_filled_slit_comes_to_overlap_is_welded() -> None:
     beside = [(59.096, 40.514), (59.1, 40.553), (59.103, 40.586), (59.053, 40.583), (59.011, 40.58)]
     marks = array(shapely.Polygon(slit), shapely.Polygon(beside))
     assert shapely.is_valid(marks).all()
-    assert not shapely.relate_pattern(*marks, "T********")
+    assert not shapely.relate_pattern(marks[0], marks[1], "T********")
     (layer,) = laid(Sheet("marks", Ink("wax", "#f4efe2", 2.0), marks))
     assert len(layer.areas) == 1
     assert layer.areas[0].area == pytest.approx(shapely.area(marks).sum(), abs=2e-3)
