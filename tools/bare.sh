@@ -12,8 +12,9 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-system='tests/command tests/export tests/library tests/making tests/test_determinism.py tests/test_docs.py
-    tests/test_first_five_minutes.py tests/test_setup.py'
+system='tests/command/test_cli.py tests/command/test_habits.py tests/command/test_stopping.py
+    tests/export/test_files.py tests/export/test_png.py tests/export/test_raster.py tests/library tests/making
+    tests/test_determinism.py tests/test_first_five_minutes.py tests/test_setup.py'
 
 say() { printf '%s\n' "bare: $*" >&2; }
 
