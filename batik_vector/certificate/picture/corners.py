@@ -1,7 +1,8 @@
 """Whether ink that ends along a seam was drawn to end there: what its corners look like.
 
 A page that cuts a mark off leaves a straight end too. The drawing's own are known by their corners: square
-ones, those where borders of several marks meet, rounded ones, and those that it has elsewhere as well.
+ones, those where borders of several marks meet, rounded ones, those of lines that come in squarely, and those
+that it has elsewhere as well.
 """
 
 from __future__ import annotations
@@ -9,12 +10,13 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from batik_vector.certificate.drawing import Drawing
-from batik_vector.certificate.picture.rim import ROUNDING, Shown, Spans
+from batik_vector.certificate.drawing import Drawing, Edges
+from batik_vector.certificate.picture.rim import ROUNDING, Shown, Spans, off_chord, turns
 from batik_vector.certificate.report import Limits
 from batik_vector.certificate.seam import Seam
 
 Floats = NDArray[np.float64]
+Indices = NDArray[np.intp]
 
 SQUARE = np.sin(np.radians(1.0))
 """How far a border may lean and still leave the seam squarely."""
@@ -24,6 +26,9 @@ STRAIGHT_MM = 0.2
 
 SHORT_MM = 0.05
 """How long (mm) a piece of border along the seam must be, inside the page, for its corners to count."""
+
+BENT = 1e-3
+"""How far a piece leans off its tangent at most, and is straight; more is a chord of a curve."""
 
 SMOOTH = np.sin(np.radians(3.0))
 """How far the borders of both sides may lean apart and still go on in one another."""
@@ -54,7 +59,17 @@ class Corners:
         length = float(self.seam.length)
         if high - low >= length - ROUNDING:
             return True
-        return all(self._own(place) for place in (low, high))
+        return all(self._own(place) for place in (low, high)) or self._squarely(low, high)
+
+    def _squarely(self, low: float, high: float) -> bool:
+        """Whether a bent line comes in squarely: its borders do, and lean the same way further on."""
+        for side in (self.near, self.far):
+            ends = [borders(side.spans, place, self.seam.length, self.limit) for place in (low, high)]
+            lean, tangent, _ = (np.concatenate(parts) for parts in zip(*ends, strict=True))
+            alone = [len(end[0]) for end in ends] == [1, 1]
+            if alone and np.abs(tangent).max() <= SQUARE and lean[0] * lean[1] > 0:
+                return True
+        return False
 
     def displaced(self, low: float, high: float) -> bool:
         """Whether a border of either edge ends the stretch, and they are so near that they ought to meet."""
@@ -69,8 +84,8 @@ class Corners:
     def _own(self, place: float) -> bool:
         """Whether a stretch ends at a place as no page would end it that cuts a mark off."""
         both = [borders(side.spans, place, self.seam.length, self.limit) for side in (self.near, self.far)]
-        (here, one), (there, other) = both
-        lean, run = (np.concatenate(parts) for parts in zip(*both, strict=True))
+        (here, _, one), (there, _, other) = both
+        lean, tangent, run = (np.concatenate(parts) for parts in zip(*both, strict=True))
         straight = STRAIGHT_MM * self.seam.frame.per_mm
         # Where more than two borders meet, or one leaves along the edge, the corner was drawn.
         if len(lean) not in (1, 2) or np.abs(lean).max() >= FLAT:
@@ -80,11 +95,11 @@ class Corners:
         if len(here) and len(there):
             # A curve that goes straight on, in another colour, is one mark in two halves.
             return not (abs(here[0] + there[0]) <= SMOOTH and min(one[0], other[0]) < straight)
-        if ((run >= straight) & (np.abs(lean) <= SQUARE)).any():
+        if ((run >= straight) & (np.abs(lean) <= SQUARE) & (np.abs(lean - tangent) <= BENT)).any():
             return True
         own = self._elsewhere()
-        turns = np.degrees(np.arccos(np.clip(np.concatenate([lean, -lean]), -1, 1)))
-        return bool(len(own) and (np.abs(turns[:, None] - own[None, :]).min(axis=1) <= CORNER).any())
+        turned_by = np.degrees(np.arccos(np.clip(np.concatenate([tangent, -tangent]), -1, 1)))
+        return bool(len(own) and (np.abs(turned_by[:, None] - own[None, :]).min(axis=1) <= CORNER).any())
 
     def _elsewhere(self) -> Floats:
         """Return by how many degrees borders turn, inside the page, at the ends of pieces along this seam."""
@@ -97,9 +112,9 @@ class Corners:
                 at = ink.rings.begin[:, seam.axis]
                 mine = (rise <= PARALLEL * run) & (run >= SHORT_MM * seam.frame.per_mm)
                 mine &= (at > seam.near + self.limit) & (at < seam.far - self.limit)
-                found += [ink.rings.turn_begin[mine], ink.rings.turn_end[mine]]
-            turns = np.degrees(np.concatenate(found)) if found else np.empty(0)
-            self._inner = np.unique(np.round(turns[np.isfinite(turns) & (turns > 5)], 2))
+                found += _corners(ink.rings, np.flatnonzero(mine))
+            by = np.degrees(np.abs(np.concatenate(found))) if found else np.empty(0)
+            self._inner = np.unique(np.round(by[by > 5], 2))
         return self._inner
 
 
@@ -108,8 +123,28 @@ def turned(apart: Floats, length: int) -> Floats:
     return np.asarray((apart + length / 2) % length - length / 2)
 
 
-def borders(spans: Spans, place: float, length: int, reach: float) -> tuple[Floats, Floats]:
-    """Return lean and run of the borders that leave an edge at a place."""
+def _corners(rings: Edges, rows: Indices) -> list[Floats]:
+    """Return by how many radians rings turn, to the left, at both ends of some of their edges.
+
+    It is the turn into the tangent of a curve, and not into its first chord, which may be degrees off.
+    """
+    step = (rings.end - rings.begin).astype(np.float64)
+    length = np.hypot(*step.T)
+    begins = np.flatnonzero(np.r_[True, rings.owner[1:] != rings.owner[:-1]])
+    ends = np.append(begins[1:], len(rings)) - 1
+    after, before = np.arange(len(rings)) + 1, np.arange(len(rings)) - 1
+    after[ends], before[begins] = begins, ends
+    found = []
+    for way in (before, after):
+        beside = way[rows]
+        beyond = way[beside]
+        off = off_chord(turns(step[beside], step[beyond]), length[beside], length[beyond])
+        found.append(turns(step[rows], step[beside]) - off)
+    return found
+
+
+def borders(spans: Spans, place: float, length: int, reach: float) -> tuple[Floats, Floats, Floats]:
+    """Return lean, tangent and run of the borders that leave an edge at a place."""
     ends = np.column_stack([spans.low, spans.high])
     on = (np.abs(turned(ends - place, length)) <= reach + ROUNDING) & (spans.run > 0)
-    return spans.lean[on], spans.run[on]
+    return spans.lean[on], spans.tangent[on], spans.run[on]

@@ -34,13 +34,15 @@ class Spans:
 
     ``lean`` of shape (n, 2) is how far the body's border leans along the edge where it leaves at either
     end (the part along the edge of a unit vector away from it), ``run`` of shape (n, 2) how long that piece
-    of the border is, in steps; 0 where it is the page that ends the stretch.
+    of the border is, in steps; 0 where it is the page that ends the stretch. ``tangent`` of shape (n, 2) is
+    as ``lean``, of the curve that the piece is a chord of.
     """
 
     low: Floats
     high: Floats
     body: Indices
     lean: Floats
+    tangent: Floats
     run: Floats
 
     def only(self, which: NDArray[np.bool_] | Indices) -> Spans:
@@ -86,8 +88,47 @@ class Rim:
         lean = step[:, 1] / run
         body = self.body[cross]
         order = np.lexsort([place, body]).reshape(-1, 2)
-        found = Spans(place[order[:, 0]], place[order[:, 1]], body[order[:, 0]], lean[order], run[order])
-        return _round(found, seam, far)
+        tangent = self._tangents(root, tip, run)[:, 1 - seam.axis]
+        ends = (place[order[:, 0]], place[order[:, 1]], body[order[:, 0]])
+        return _round(Spans(*ends, lean[order], tangent[order], run[order]), seam, far)
+
+    def _tangents(self, root: Indices, tip: Indices, run: Floats) -> Floats:
+        """Return unit tangents, shape (n, 2), of what goes from roots to tips, ``run`` before these."""
+        after = 2 * tip - root
+        # A ring's last vertex is its first.
+        first = np.searchsorted(self.ring, self.ring[tip])
+        last = np.searchsorted(self.ring, self.ring[tip], side="right") - 1
+        after = np.where(after > last, first + 1, np.where(after < first, last - 1, after))
+        chord, next_ = self.xy[tip] - self.xy[root], self.xy[after] - self.xy[tip]
+        length = np.hypot(*chord.T)
+        back = off_chord(turns(chord, next_), length, np.hypot(*next_.T)) * (1 - 2 * run / length)
+        turned = chord[:, 0] + 1j * chord[:, 1]
+        turned *= np.exp(1j * back) / length
+        return np.column_stack([turned.real, turned.imag])
+
+
+BENDS = np.radians(20.0)
+"""By how much a curve turns at most from chord to chord; what turns more is a corner."""
+
+EVEN = 4.0
+"""How many times as long as the next a chord of a curve is, at most; what is longer is straight."""
+
+
+def turns(one: Floats, next_: Floats) -> Floats:
+    """Return by how many radians steps, shape (n, 2), turn left into the next."""
+    cross = one[:, 0] * next_[:, 1] - one[:, 1] * next_[:, 0]
+    return np.asarray(np.arctan2(cross, (one * next_).sum(axis=1)))
+
+
+def off_chord(turn: Floats, length: Floats, next_: Floats) -> Floats:
+    """Return by how many radians a curve turns off a chord at its ends: a circle through three points does.
+
+    Args:
+        turn: from the chord to the next one.
+        length, next_: of the two; where they are uneven, or turn as a corner does, the chord is no chord.
+    """
+    even = (length <= EVEN * next_) & (next_ <= EVEN * length) & (np.abs(turn) <= BENDS)
+    return np.where(even, turn * length / np.maximum(length + next_, 1e-12), 0.0)
 
 
 def _round(spans: Spans, seam: Seam, far: bool) -> Spans:

@@ -43,6 +43,11 @@ def edges(certificate: Certificate) -> list[tuple[str, float, float]]:
         ),
         # The same half diamond stands inside the tile too.
         ('<path d="M0 10l9 9-9 9zM30 10l9 9-9 9z"/>', [("left", 32, 50)]),
+        # A rod from disc to disc lies beside the edge: as it meets them there, it does on its other side.
+        ('<path d="M0 10.101A5 5 0 0 1 2 19.899V40.172A3 3 0 0 1 0 45.828z'
+         'M60 10.101A5 5 0 0 0 60 19.899zM60 40.172A3 3 0 0 0 60 45.828z"/>', [("left", 20, 40)]),
+        # A bent line that comes in squarely may end there, as a straight one may.
+        ('<path d="M0 10a9 9 0 0 1 9 9h-2a7 7 0 0 0-7-7z"/>', [("left", 48, 50)]),
         # Rounded corners leave the edge along it.
         ('<rect width="40" height="20" y="20" rx="5"/>', [("left", 25, 35)]),
         # A line that comes in squarely may end there.
@@ -68,6 +73,8 @@ def test_ink_that_ends_along_the_edge_by_design_is_told(
     [
         # The page cuts a disc, and nothing comes back.
         ('<circle cy="30" r="9"/>', Kind.UNPAIRED, "covered at the left edge"),
+        # A half of one, large enough for a chord to look like a straight piece.
+        ('<path d="M0 10a20 20 0 0 1 0 40z"/>', Kind.UNPAIRED, "covered at the left edge"),
         # A half that was cut before: curves that end at the page, aslant.
         ('<path d="M0 14A20 20 0 0 1 0 46z"/>', Kind.UNPAIRED, "covered at the left edge"),
         ('<path d="M0 10l9 12-9 9z"/>', Kind.UNPAIRED, "covered at the left edge"),
