@@ -3,8 +3,8 @@
     @long
     @settings(max_examples=examples(100, 1000))
 
-A test marked so runs in both; ``make test-long`` runs nothing else. ``make test-long LONG=3`` tries three times
-as many, ``LONG=0.4`` fewer, as `.ci/run` does.
+A test marked so runs in both; ``make test-long`` runs nothing else. ``make test-long LONG=3`` tries three
+times as many, ``LONG=0.4`` fewer, as `.ci/run` does.
 """
 
 from __future__ import annotations
