@@ -91,17 +91,6 @@ def test_the_readme_says_over_what_t_runs() -> None:
     assert "t, which runs over [0, 1]" in README
 
 
-def test_what_the_page_on_sweeps_says_in_python_can_be_run(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    (tmp_path / "samples").symlink_to(ROOT / "samples")
-    monkeypatch.chdir(tmp_path)
-    page = (ROOT / "docs" / "sweeps.md").read_text(encoding="utf-8")
-    (text,) = [text for kind, text in BLOCK.findall(page) if kind == "python"]
-    exec(compile(text, "sweeps.md", "exec"), {})
-    assert len(list(tmp_path.glob("four-square_*.svg"))) == 6
-
-
 def test_what_the_page_on_pens_asks_for_can_be_made(tmp_path: Path) -> None:
     page = (ROOT / "docs" / "pens.md").read_text(encoding="utf-8")
     (text,) = [text for kind, text in BLOCK.findall(page) if kind == "toml"]
