@@ -13,7 +13,8 @@ import shapely
 from numpy.typing import NDArray
 
 from batik_vector.errors import TooLargeError
-from batik_vector.geometry.arrangement.noding import Box, Edges, edges_of, noded
+from batik_vector.geometry.arrangement.chaining import chained
+from batik_vector.geometry.arrangement.noding import Box, Edges, edges_of, in_one, noded
 from batik_vector.geometry.outlines import Index, Steps
 from batik_vector.geometry.regions import oriented
 from batik_vector.geometry.sampling import Geometries
@@ -58,7 +59,7 @@ def arranged(layers: Sequence[Geometries], box: Box) -> Arrangement:
     if len(edges) > MOST:
         raise TooLargeError(f"{len(edges):,} edges, expected at most {MOST:,}: take the tile, or less cloth")
     edges = noded(edges, box)
-    lines = np.asarray(shapely.linestrings(edges.ends.reshape(-1, 2, 2).astype(float)), dtype=object)
+    lines = chained(edges.ends)
     faces = sorted_by_place(np.asarray(shapely.get_parts(shapely.polygonize(lines)), dtype=object))
     winding = _winding(faces, edges)
     left, bottom, right, top = box
@@ -115,9 +116,10 @@ def _sides(faces: Geometries, edges: Edges) -> tuple[Index, Index]:
 def _rows_of(rows: Steps, known: Steps) -> Index:
     """Return where each row stands among known ones, which are sorted and each there once."""
     both = np.concatenate([known, rows])
-    order = np.lexsort([np.arange(len(both)), *both.T[::-1]])
-    ordered = both[order]
-    fresh = np.append(True, (ordered[1:] != ordered[:-1]).any(axis=1))
+    begin, end = in_one(both[:, :2]), in_one(both[:, 2:])
+    order = np.lexsort([end, begin])
+    begin, end = begin[order], end[order]
+    fresh = np.append(True, (begin[1:] != begin[:-1]) | (end[1:] != end[:-1]))
     place = np.empty(len(both), np.intp)
     place[order] = np.cumsum(fresh) - 1
     return place[len(known) :]

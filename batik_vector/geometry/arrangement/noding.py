@@ -6,7 +6,7 @@ of a seam keep the nodes that they came with. A corner beside an edge that it wa
 the rounding of a crossing, is made a corner of that edge too, so that no hair is left between them.
 
 Snap rounding: J. D. Hobby, Practical segment intersection with finite precision output, Computational
-Geometry 13 (1999); here crossings are looked for again until there are none.
+Geometry 13 (1999); here crossings are looked for again until there are none, of edges that were cut alone.
 """
 
 from __future__ import annotations
@@ -41,38 +41,56 @@ class Edges:
 
     ``ends`` has shape (n, 4), from the lower left end of each to its other end; ``turns`` has shape (n, k):
     by how much more often the outlines of each of k layers wind about what is left of it than what is right.
+    ``fresh`` are those that came into being when edges were cut last.
     """
 
     ends: Steps
     turns: NDArray[np.int32]
+    fresh: NDArray[np.bool_]
 
     def __len__(self) -> int:
         return len(self.ends)
 
+    def taken(self, which: NDArray[np.bool_]) -> Edges:
+        """Return some of them."""
+        return Edges(self.ends[which], self.turns[which], self.fresh[which])
 
-def together(ends: Steps, turns: NDArray[np.int32], kept: NDArray[np.bool_] | None = None) -> Edges:
+
+def together(
+    ends: Steps,
+    turns: NDArray[np.int32],
+    kept: NDArray[np.bool_] | None = None,
+    fresh: NDArray[np.bool_] | None = None,
+) -> Edges:
     """Return edges turned one way, those that coincide as one; what separates nothing is left out.
 
     Args:
         ends: shape (n, 4), in any direction.
         turns: shape (n, k), as seen along the direction given.
         kept: which stay although they separate nothing.
+        fresh: which are so; all unless told.
     """
     back = (ends[:, 0] > ends[:, 2]) | ((ends[:, 0] == ends[:, 2]) & (ends[:, 1] > ends[:, 3]))
     ends = np.where(back[:, None], ends[:, [2, 3, 0, 1]], ends)
     turns = np.where(back[:, None], -turns, turns)
-    order = np.lexsort(ends.T[::-1])
+    order = np.lexsort([in_one(ends[:, 2:]), in_one(ends[:, :2])])
     ends, turns = ends[order], turns[order]
-    fresh = np.append(True, (ends[1:] != ends[:-1]).any(axis=1)) if len(ends) else np.empty(0, bool)
-    first = np.flatnonzero(fresh)
+    new = np.append(True, (ends[1:] != ends[:-1]).any(axis=1)) if len(ends) else np.empty(0, bool)
+    first = np.flatnonzero(new)
     if not len(first):
-        return Edges(ends, turns)
+        return Edges(ends, turns, np.empty(0, bool))
     summed = np.add.reduceat(turns, first, axis=0)
     stays = (summed != 0).any(axis=1)
     if kept is not None:
         stays |= np.logical_or.reduceat(kept[order], first)
     stays &= (ends[first, :2] != ends[first, 2:]).any(axis=1)
-    return Edges(ends[first[stays]], summed[stays].astype(np.int32))
+    newly = np.ones(len(first), bool) if fresh is None else np.logical_or.reduceat(fresh[order], first)
+    return Edges(ends[first[stays]], summed[stays].astype(np.int32), newly[stays])
+
+
+def in_one(points: Steps) -> NDArray[np.int64]:
+    """Return places, none past 2^31 steps, as numbers in the order of x, then y: sorted in half the time."""
+    return np.asarray((points[:, 0] << 32) + points[:, 1], np.int64)
 
 
 def noded(edges: Edges, box: Box) -> Edges:
@@ -112,6 +130,12 @@ def _split_at_sides(edges: Edges, box: Box) -> Edges:
     """Cut edges where they cross the lines of the box's sides, and add the sides, cut there too."""
     left, bottom, right, top = box
     corners = np.array([[left, bottom], [right, bottom], [right, top], [left, top]], np.int64)
+    over = np.zeros(len(edges), bool)
+    for axis, value in _sides(box):
+        low, high = edges.ends[:, axis], edges.ends[:, axis + 2]
+        over |= ((low < value) & (high > value)) | ((low > value) & (high < value))
+    # Few edges reach over a side: the others are not sorted anew for each.
+    rest, edges = edges.taken(~over), edges.taken(over)
     for axis, value in _sides(box):
         low, high = edges.ends[:, axis], edges.ends[:, axis + 2]
         at = np.flatnonzero(((low < value) & (high > value)) | ((low > value) & (high < value)))
@@ -124,6 +148,11 @@ def _split_at_sides(edges: Edges, box: Box) -> Edges:
         points[:, axis] = value
         points[:, 1 - axis] = found[:, 1 - axis] + (2 * rise + run) // (2 * run)
         edges = _split(edges, at, points, box)
+    edges = Edges(
+        np.concatenate([rest.ends, edges.ends]),
+        np.concatenate([rest.turns, edges.turns]),
+        np.concatenate([rest.fresh, edges.fresh]),
+    )
     nodes = np.concatenate([edges.ends[:, :2], edges.ends[:, 2:], corners])
     sides = [edges.ends]
     for axis, value in _sides(box):
@@ -140,89 +169,95 @@ def _split_at_sides(edges: Edges, box: Box) -> Edges:
 
 
 def _splits(edges: Edges, box: Box, near: float) -> tuple[Index, Steps]:
-    """Return which edges are to be cut and where: at corners on them, and where they cross."""
-    lines = np.asarray(shapely.linestrings(edges.ends.reshape(-1, 2, 2).astype(float)), dtype=object)
-    tree = shapely.STRtree(lines)
-    on, points = _corners(edges, tree, box, near)
-    inner = _inner(edges, on, points)
-    on, points = on[inner], points[inner]
+    """Return which edges are to be cut and where: at corners on them, and where they cross.
+
+    Only pairs of which one is fresh are looked at: of any other pair all has been found in a round before.
+    """
+    reach = (near + 0.01) / 2
+    ends = edges.ends.astype(float)
+    low, high = np.minimum(ends[:, :2], ends[:, 2:]), np.maximum(ends[:, :2], ends[:, 2:])
+    # What is as large as an edge and its surroundings; to compare numbers is many times cheaper than to ask
+    # GEOS of each pair.
+    around = np.asarray(shapely.linestrings(np.stack([low - reach, high + reach], axis=1)), dtype=object)
+    tree = shapely.STRtree(around)
+    asked = np.flatnonzero(edges.fresh)
+    met, crossing = [_nothing()], [_nothing()]
+    for first in range(0, len(asked), ASKED):
+        some = asked[first : first + ASKED]
+        one, other = tree.query(around[some])
+        one = some[one]
+        once = (one < other) | ~edges.fresh[other]
+        one, other = one[once], other[once]
+        on, points, crosses = _compared(edges.ends[one], edges.ends[other], one, other, near)
+        met.append((on, points))
+        crossing.append((one[crosses], np.stack([one[crosses], other[crosses]], axis=1)))
+    on, points = (np.concatenate(each) for each in zip(*met, strict=True))
+    there = _may_be_corner(edges, on, points, box)
+    on, points = on[there], points[there]
     # What is to be drawn to a corner first may cross no more; cut at both at once, edges that leave one line
     # side by side cross ever anew, a step further on.
     whole = np.ones(len(edges), bool)
     whole[on] = False
-    one, other = _crossing_pairs(edges, lines, tree, np.flatnonzero(whole))
+    pairs = np.concatenate([pair for _, pair in crossing])
+    one, other = pairs[whole[pairs].all(axis=1)].T
     if len(one):
         places = _crossings(edges.ends[one], edges.ends[other], box)
         on, points = np.concatenate([on, one, other]), np.concatenate([points, places, places])
-    inner = _inner(edges, on, points)
-    return on[inner], points[inner]
+        inner = _inner(edges, on, points)
+        on, points = on[inner], points[inner]
+    return on, points
+
+
+def _nothing() -> tuple[Index, Steps]:
+    return np.empty(0, np.intp), np.empty((0, 2), np.int64)
+
+
+def _compared(
+    a: Steps, b: Steps, one: Index, other: Index, near: float
+) -> tuple[Index, Steps, NDArray[np.bool_]]:
+    """Compare pairs of edges.
+
+    Returns:
+        which edges have an end of the other on them, or as near as asked, and where that is; and of each pair
+        whether they cross within both.
+    """
+    found, sides = [_nothing()], list[NDArray[np.int64]]()
+    for on, line, points in ((one, a, b), (other, b, a)):
+        x, y = line[:, 0], line[:, 1]
+        right, up = line[:, 2] - x, line[:, 3] - y
+        squares = right * right + up * up
+        far = near * np.sqrt(squares.astype(float))
+        for end in (0, 2):
+            across, along = points[:, end] - x, points[:, end + 1] - y
+            turn = right * along - up * across
+            sides.append(np.sign(turn))
+            at = np.flatnonzero(np.abs(turn) <= far)
+            way = right[at] * across[at] + up[at] * along[at]
+            at = at[(way > 0) & (way < squares[at])]
+            found.append((on[at], points[at, end : end + 2]))
+    crosses = (sides[0] * sides[1] < 0) & (sides[2] * sides[3] < 0)
+    on, places = (np.concatenate(each) for each in zip(*found, strict=True))
+    return on, places, crosses
+
+
+def _may_be_corner(edges: Edges, on: Index, points: Steps, box: Box) -> NDArray[np.bool_]:
+    """Tell which points on edges, or beside them, may be made corners of these.
+
+    What lies on the rectangle's sides is a corner of the sides alone, and these have no others.
+    """
+    ends = edges.ends[on]
+    inside = np.ones(len(points), bool)
+    for axis, value in _sides(box):
+        inside &= points[:, axis] != value
+    way, to = ends[:, 2:] - ends[:, :2], points - ends[:, :2]
+    exact = way[:, 0] * to[:, 1] == way[:, 1] * to[:, 0]
+    return np.where(_on_side(ends, box), exact, inside) & _inner(edges, on, points)
 
 
 def _inner(edges: Edges, on: Index, points: Steps) -> NDArray[np.bool_]:
     """Tell which points are no end of the edge that they are on."""
     ends = edges.ends[on]
     return np.asarray((points != ends[:, :2]).any(axis=1) & (points != ends[:, 2:]).any(axis=1))
-
-
-def _corners(edges: Edges, tree: shapely.STRtree, box: Box, near: float) -> tuple[Index, Steps]:
-    """Return which edges have corners of others on them, and which."""
-    corners = _once(edges.ends.reshape(-1, 2))
-    reach = near + 0.01
-    low, high = (corners - reach).T, (corners + reach).T
-    at, on = tree.query(np.asarray(shapely.box(*low, *high), dtype=object))
-    points, ends = corners[at], edges.ends[on]
-    way, to = ends[:, 2:] - ends[:, :2], points - ends[:, :2]
-    along = (way * to).sum(axis=1)
-    length = (way * way).sum(axis=1)
-    across = np.abs(way[:, 0] * to[:, 1] - way[:, 1] * to[:, 0])
-    meets = (along > 0) & (along < length) & (across <= near * np.sqrt(length.astype(float)))
-    # What lies on the rectangle's sides is a corner of the sides alone, and these have no others.
-    inside = np.ones(len(points), bool)
-    for axis, value in _sides(box):
-        inside &= points[:, axis] != value
-    meets &= np.where(_on_side(ends, box), across == 0, inside)
-    return on[meets], points[meets]
-
-
-def _once(points: Steps) -> Steps:
-    """Return points in order, each once."""
-    order = np.lexsort([points[:, 1], points[:, 0]])
-    points = points[order]
-    return points[np.append(True, (points[1:] != points[:-1]).any(axis=1))] if len(points) else points
-
-
-def _crossing_pairs(
-    edges: Edges, lines: Geometries, tree: shapely.STRtree, asked: Index
-) -> tuple[Index, Index]:
-    """Return which of some edges cross which others of them, each pair once.
-
-    Those whose bounds meet are compared by numbers: to ask GEOS of each pair is many times dearer.
-    """
-    free = np.zeros(len(edges), bool)
-    free[asked] = True
-    found = [(asked[:0], asked[:0])]
-    for first in range(0, len(asked), ASKED):
-        some = asked[first : first + ASKED]
-        one, other = tree.query(lines[some])
-        one = some[one]
-        new = (one < other) & free[other]
-        one, other = one[new], other[new]
-        crossing = _crossing(edges.ends[one], edges.ends[other])
-        found.append((one[crossing], other[crossing]))
-    return np.concatenate([one for one, _ in found]), np.concatenate([other for _, other in found])
-
-
-def _crossing(one: Steps, other: Steps) -> NDArray[np.bool_]:
-    """Return which pairs of edges cross within both."""
-    p, r = one[:, :2], one[:, 2:] - one[:, :2]
-    q, s = other[:, :2], other[:, 2:] - other[:, :2]
-
-    def side(of: Steps, way: Steps, point: Steps) -> NDArray[np.int64]:
-        turn: NDArray[np.int64] = way[:, 0] * (point - of)[:, 1] - way[:, 1] * (point - of)[:, 0]
-        return np.sign(turn)
-
-    apart = side(p, r, q) * side(p, r, other[:, 2:]) < 0
-    return np.asarray(apart & (side(q, s, p) * side(q, s, one[:, 2:]) < 0))
 
 
 def _crossings(one: Steps, other: Steps, box: Box) -> Steps:
@@ -266,7 +301,8 @@ def _split(edges: Edges, on: Index, points: Steps, box: Box) -> Edges:
     end[rest] = points
     ends = np.concatenate([edges.ends[whole], np.hstack([begin, end])])
     turns = np.concatenate([edges.turns[whole], np.repeat(edges.turns[cut], counts + 1, axis=0)])
-    return together(ends, turns, _on_side(ends, box) & _within(ends, box))
+    fresh = np.arange(len(ends)) >= int(whole.sum())
+    return together(ends, turns, _on_side(ends, box) & _within(ends, box), fresh)
 
 
 def _within(ends: Steps, box: Box) -> NDArray[np.bool_]:

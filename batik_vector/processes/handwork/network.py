@@ -11,14 +11,16 @@ is held by its piece alone, all pieces of a generation break at once. Then a smo
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from batik_vector.artwork import Cell
 from batik_vector.geometry.outlines import Index, Offsets, Steps
 from batik_vector.geometry.sampling import Array
 from batik_vector.processes.handwork.splitting import Cells, Chords, chords, halves, moments, together
-from batik_vector.processes.handwork.waver import Wave, Waver
+from batik_vector.processes.handwork.waver import Wave, Waver, folded
 from batik_vector.values import frozen
 
 BOTTOM, RIGHT, TOP, LEFT = range(4)
@@ -40,6 +42,8 @@ STRAIN = 0.75
 """How much each may part places at most: below 1 they keep every T."""
 STRIDES = 7
 """Corners of a crack for the length of a piece."""
+STEP, ASUNDER = 3, 20
+"""Steps by which one of two cracks that end in one place is moved, then twice as many, and so on; tries."""
 AGED = 2.0
 """The power of a crack's age by which it has grown wide: most are hairs, and few are broad."""
 
@@ -208,12 +212,58 @@ class _Cracks:
         on = on[order]
         met = on >= 0
         where = ends[met] - back[on[met]]
+        bends = [
+            Waver.drawn(cell, [Wave(reach * size, push * size)], (seed, 1, times)).eased(STRAIN)
+            for times, (reach, push) in enumerate(BENDS)
+        ]
+        where = _apart(ends, met, number[on[met]], where, cell, bends)
         points, offsets = _lines(ends, number[on[met]], where, size / STRIDES)
-        for times, (reach, push) in enumerate(BENDS):
-            wave = Wave(reach * size, push * size)
-            points = Waver.drawn(cell, [wave], (seed, 1, times)).eased(STRAIN).moved(points)
+        points = _bent(points, bends)
         age = 1 - (np.arange(len(order)) + 0.5) / len(order)
         return Network(points, offsets, age, pieces)
+
+
+def _bent(points: Steps, bends: Sequence[Waver]) -> Steps:
+    for bend in bends:
+        points = bend.moved(points)
+    return points
+
+
+def _apart(
+    ends: Steps, met: NDArray[np.bool_], onto: Index, where: Steps, cell: Cell, bends: Sequence[Waver]
+) -> Steps:
+    """Move the ends of cracks that come to lie where another ends, on the other side: these were no Ts.
+
+    Args:
+        ends: shape (n, 2, 2); they are moved along what they end on by a few steps, the youngest of those in
+            one place.
+        met: shape (n, 2): which of them end on another crack.
+        onto, where: on which those do, and where, as :func:`_lines` takes them.
+        cell, bends: of the network; where places are told apart is after it is bent.
+
+    Returns:
+        where they end now.
+    """
+    crack = np.nonzero(met)[0]
+    way = (ends[onto, 1] - ends[onto, 0]).astype(float)
+    way /= np.maximum(np.abs(way).max(axis=1), 1.0)[:, None]
+    for times in range(1, ASUNDER + 1):
+        places = folded(_bent(ends[met], bends), cell)
+        order = np.lexsort([crack, places[:, 1], places[:, 0]])
+        again = (places[order[1:]] == places[order[:-1]]).all(axis=1)
+        if not again.any():
+            break
+        twice = order[1:][again]
+        by = np.floor(way[twice] * (STEP * times) + 0.5).astype(np.int64)
+        # Away from the nearer end of what they end on.
+        middle = (ends[onto[twice], 0] + ends[onto[twice], 1]) / 2
+        by[((middle - where[twice]) * by).sum(axis=1) < 0] *= -1
+        where = where.copy()
+        where[twice] += by
+        moved = ends[met]
+        moved[twice] += by
+        ends[met] = moved
+    return where
 
 
 def _lines(ends: Steps, onto: Index, where: Steps, stride: float) -> tuple[Steps, Offsets]:

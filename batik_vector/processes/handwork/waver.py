@@ -100,12 +100,19 @@ def _longest(pushes: Array) -> float:
 def _shares(points: Steps, cell: Cell) -> tuple[Array, Array]:
     """Return where places lie in the cell, as shares of its two translations, each in [0, 1)."""
     (ax, ay), (bx, by) = cell.lattice
+    x, y = folded(points, cell).T
+    if bx == 0:
+        return x / ax, (y - x * ay / ax) / by % 1.0
+    return (x - y * bx / by) / ax % 1.0, y / by
+
+
+def folded(points: Steps, cell: Cell) -> Steps:
+    """Return the twins of places within the cell: what lies whole times round the torus away has the same."""
+    (ax, ay), (bx, by) = cell.lattice
     x, y = points[:, 0], points[:, 1]
     if bx == 0:
-        x, y = x % ax, (y - x // ax * ay) % by
-        return x / ax, (y - x * ay / ax) / by % 1.0
-    x, y = (x - y // by * bx) % ax, y % by
-    return (x - y * bx / by) / ax % 1.0, y / by
+        return np.stack([x % ax, (y - x // ax * ay) % by], axis=1)
+    return np.stack([(x - y // by * bx) % ax, y % by], axis=1)
 
 
 def _weights(share: Array, count: int) -> tuple[list[Steps], list[Array]]:

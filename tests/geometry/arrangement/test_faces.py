@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from random import Random
+from typing import Any
 
 import numpy as np
 import pytest
@@ -13,7 +14,10 @@ from hypothesis import strategies as st
 from shapely import affinity
 
 from batik_vector.errors import TooLargeError
-from batik_vector.geometry.arrangement import Arrangement, arranged, faces
+from batik_vector.geometry.arrangement import Arrangement, arranged, faces, noding
+from batik_vector.geometry.arrangement.chaining import chained
+from batik_vector.geometry.arrangement.noding import edges_of, noded
+from batik_vector.geometry.outlines import Steps
 from batik_vector.geometry.sampling import Geometries
 from tests.thorough import examples, long
 
@@ -116,6 +120,43 @@ def test_faces_come_in_one_order_whatever_the_order_of_areas() -> None:
     areas = layer(Random(5), 6)
     one, other = arranged([areas], BOX), arranged([areas[::-1]], BOX)
     assert shapely.to_wkb(one.faces).tolist() == shapely.to_wkb(other.faces).tolist()
+
+
+@long
+@settings(max_examples=examples(10, 120), deadline=None, derandomize=True)
+@given(st.integers(0, 10**6))
+def test_lines_are_chained_from_fork_to_fork(seed: int) -> None:
+    chance = Random(seed)
+    ends = noded(edges_of([layer(chance, chance.randint(0, 5))]), BOX).ends
+    lines = chained(ends)
+    coords, line = shapely.get_coordinates(lines, return_index=True)
+    points = coords.astype(int)
+    same = line[1:] == line[:-1]
+    made = np.hstack([points[:-1][same], points[1:][same]])
+    assert sorted(map(sorted, made.reshape(-1, 2, 2).tolist())) == sorted(
+        map(sorted, ends.reshape(-1, 2, 2).tolist())
+    )
+    places, meet = np.unique(ends.reshape(-1, 2), axis=0, return_counts=True)
+    forks = set(map(tuple, places[meet != 2].tolist()))
+    for each in lines:
+        first, *inner, last = ((int(x), int(y)) for x, y in each.coords)
+        assert (first == last) or {first, last} <= forks
+        assert not forks & set(inner)
+
+
+def test_edges_are_compared_with_those_alone_that_are_new(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What was compared in one round is not in the next."""
+    rounds = []
+    compared = noding._compared
+
+    def counted(a: Steps, b: Steps, *rest: Any) -> Any:
+        rounds.append(len(a))
+        return compared(a, b, *rest)
+
+    monkeypatch.setattr(noding, "_compared", counted)
+    arranged([layer(Random(8), 40)], BOX)
+    assert len(rounds) > 2
+    assert rounds[-1] < rounds[0] / 5
 
 
 def test_too_many_edges_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
