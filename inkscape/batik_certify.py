@@ -39,7 +39,9 @@ class BatikCertify(BatikExtension):
             pointed = Path(folder) / "tile-check.svg"
             if pointed.exists():
                 self.point(etree.fromstring(pointed.read_bytes()))
-            self.msg(report.decode("utf-8", "replace").replace(str(path), "this tile"))
+            *facts, verdict = report.decode("utf-8", "replace").replace(str(path), "this tile").splitlines()
+            # The verdict first: a dialogue shows the beginning of what is long.
+            self.msg("\n".join([verdict, "", *facts]))
 
     def point(self, pointed):
         """Take the layer over that points at faults: it stands in a copy of this document, in its units."""

@@ -10,7 +10,7 @@ import tempfile
 from pathlib import Path
 
 import inkex
-from batik_program import CLOTH, LABEL, MODE, SVG, BatikExtension
+from batik_program import CLOTH, LABEL, SVG, BatikExtension
 from lxml import etree
 
 
@@ -27,7 +27,8 @@ class BatikField(BatikExtension):
 
     def effect(self):
         """Take the tile over as a recipe, compile it as often as asked, and hide what it was made of."""
-        before = [each for each in self.svg if each.tag == f"{SVG}g" and each.get(MODE) == "layer"]
+        # What lies in no layer is of the tile, too.
+        before = [each for each in self.svg if isinstance(each, inkex.ShapeElement)]
         with tempfile.TemporaryDirectory() as folder:
             path, recipe = Path(folder) / "tile.svg", Path(folder) / "tile.toml"
             path.write_bytes(etree.tostring(self.svg))

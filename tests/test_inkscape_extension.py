@@ -7,7 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from batik_vector import TileSpec
 from batik_vector.command.cli import KINDS
+from batik_vector.tiling.symmetry.groups import GROUPS
 
 FOLDER = Path(__file__).resolve().parent.parent / "inkscape"
 NAMESPACE = "{http://www.inkscape.org/namespace/inkscape/extension}"
@@ -32,3 +34,14 @@ def test_every_question_of_a_dialogue_is_taken(name: str) -> None:
     assert len(asked) == script.count("pars.add_argument(")
     assert all(f'"--{name}"' in script for name in asked)
     assert root.findtext(f".//{NAMESPACE}command") == f"{name}.py"
+
+
+@pytest.mark.parametrize("name", ["batik_certify", "batik_field"])
+def test_repeats_and_groups_that_a_dialogue_offers_are_known(name: str) -> None:
+    for each in ET.parse(FOLDER / f"{name}.inx").iter(f"{NAMESPACE}param"):
+        offered = {option.get("value", "") for option in each} - {""}
+        if each.get("name") == "repeat":
+            for words in offered:
+                assert TileSpec(size=(60.0, 80.0), repeat=words).repeat == words
+        elif each.get("name") == "group":
+            assert offered == set(GROUPS)

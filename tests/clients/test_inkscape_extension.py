@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 import zipfile
 from pathlib import Path
@@ -84,7 +85,7 @@ def tile(folder: Path, unit: str, right: float) -> Path:
     path = folder / f"tile-{unit}.svg"
     path.write_text(
         '<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape"'
-        f' {page}><g id="check"/>'
+        f' {page}><g id="check"/><path id="loose" d="M1 1"/>'
         '<g id="layer1" inkscape:groupmode="layer" inkscape:label="soga" fill="#a86f3a">'
         f'<g transform="scale({scale})"><path d="M0 22C6 22 9 30 4 34C2 36 1 38 0 38Z"/>'
         f'<path id="twin" transform="translate(60 {right})" d="M0 38C-6 38 -9 30 -4 26C-2 24 -1 22 0 22Z"/>'
@@ -118,7 +119,8 @@ def test_a_field_is_welded_in_true_size_over_the_page(tmp_path: Path, unit: str)
     assert boxes["batik"][2:] == pytest.approx((120, 136), abs=0.1)
     text = done.read_text("utf-8")
     assert 'inkscape:label="Field 2 ' in text
-    assert "display:none" in text
+    for name in ("layer1", "loose"):
+        assert re.search(rf'<[^>]*id="{name}"[^>]*display:none', text), "in no layer, and hidden as well"
     # A mark that two tiles meet in is one piece: three on each edge of the field, and three in its middle.
     assert text[text.index('id="batik"') :].count("Z") == 9
 
