@@ -16,8 +16,8 @@ from batik_vector.audit.chords import Chords
 from batik_vector.audit.contours import Contours, Floats, Mask
 from batik_vector.audit.edges import Edges
 from batik_vector.audit.stretches import AROUND
+from batik_vector.geometry.nets.components import components
 from batik_vector.geometry.outlines import Index
-from batik_vector.tiling.welding.weld import components
 from batik_vector.values import frozen
 
 FAR = 100.0

@@ -13,9 +13,9 @@ from batik_vector.audit.report import Finding, Kind, mm
 from batik_vector.certificate import Limits as SeamLimits
 from batik_vector.certificate import SeamFault
 from batik_vector.certificate.duplicates import doubled_lines, shared_lines
+from batik_vector.geometry.nets.components import components
 from batik_vector.geometry.outlines import Index
 from batik_vector.machines import Twice
-from batik_vector.tiling.welding.weld import components
 
 LEAST_DOUBLE = 0.1
 """Shorter stretches (mm) that are drawn again harm nobody."""

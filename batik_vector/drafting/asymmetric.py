@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from batik_vector.artwork import Geometries
 from batik_vector.drafting.copies import Copies, same
 from batik_vector.drafting.units import Unit
+from batik_vector.geometry.nets.components import components
 from batik_vector.tiling.torus.torus import translate
-from batik_vector.tiling.welding.weld import components
 
 Index = NDArray[np.intp]
 Floats = NDArray[np.float64]

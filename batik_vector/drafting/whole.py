@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from batik_vector.artwork import Cell, Geometries
 from batik_vector.drafting.copies import same
 from batik_vector.drafting.marks import Painted
+from batik_vector.geometry.nets.components import components
 from batik_vector.geometry.outlines import of_polygons, to_polygons
 from batik_vector.geometry.regions import oriented
 from batik_vector.importing.fills import solid
@@ -29,7 +30,6 @@ from batik_vector.tiling.torus.torus import (
     translate,
     translates,
 )
-from batik_vector.tiling.welding.weld import components
 from batik_vector.units import STEPS_PER_MM
 from batik_vector.values import frozen
 

@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from batik_vector.errors import SeamError
+from batik_vector.geometry.nets.components import components
 from batik_vector.geometry.outlines import Index, Offsets, Outlines, Steps, runs
 from batik_vector.tiling.cloth.chains import NO_SEAM, Contact, Copies, cancelled, numbered
-from batik_vector.tiling.welding.weld import components
 from batik_vector.values import frozen
 
 

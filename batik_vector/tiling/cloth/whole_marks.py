@@ -15,6 +15,7 @@ import shapely
 from numpy.typing import NDArray
 
 from batik_vector.artwork import Cell, Ink, Layer, Overlap
+from batik_vector.geometry.nets.components import components
 from batik_vector.geometry.outlines import (
     MM,
     Index,
@@ -29,7 +30,6 @@ from batik_vector.tiling.cloth.chains import Chains, Copies, cancelled, chains_o
 from batik_vector.tiling.cloth.paths import Ends, ends_of, paths_of
 from batik_vector.tiling.cloth.rings import rings_of, whole
 from batik_vector.tiling.torus.torus import polygons_of
-from batik_vector.tiling.welding.weld import components
 from batik_vector.values import frozen
 
 Meetings = tuple[Index, Index, Steps]

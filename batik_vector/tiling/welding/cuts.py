@@ -12,13 +12,14 @@ from numpy.typing import NDArray
 
 from batik_vector.artwork import Geometries
 from batik_vector.geometry.congruence import alike
+from batik_vector.geometry.nets.components import components
 from batik_vector.geometry.outlines import Index, Offsets, Steps
 from batik_vector.tiling.torus import overlay
 from batik_vector.tiling.torus.remembered import Asked, identities, interned
 from batik_vector.tiling.torus.torus import Lattice, Window, reduced, translate, translates
 from batik_vector.tiling.welding.congruent import Copies, Stock
 from batik_vector.tiling.welding.sheets import Laid, joined
-from batik_vector.tiling.welding.weld import components, unions
+from batik_vector.tiling.welding.weld import unions
 from batik_vector.values import frozen
 
 CUT_SHARE = 0.05

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from batik_vector.artwork import Geometries
 from batik_vector.geometry.congruence import alike
+from batik_vector.geometry.nets.components import components
 from batik_vector.tiling.torus.torus import Window
-from batik_vector.tiling.welding.weld import components
 
 ROUNDED = 1
 """By how many steps along each axis the roundings of one point may stand apart."""

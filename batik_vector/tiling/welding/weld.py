@@ -1,8 +1,8 @@
 """Welding: areas of one ink that meet or overlap become one, component by component.
 
 Uniting everything at once costs far more than uniting each connected group by itself, an area that meets no
-other needs nothing done, and groups that are copies of one another are united once. Coordinates are whole
-grid steps.
+other needs nothing done, and groups that are copies of one another are united once. Large groups are nets,
+united by ``geometry.nets`` at the edges that meet others. Coordinates are whole grid steps.
 """
 
 from __future__ import annotations
@@ -14,15 +14,21 @@ from numpy.typing import NDArray
 from batik_vector.artwork import Geometries
 from batik_vector.geometry import work
 from batik_vector.geometry.congruence import alike
-from batik_vector.geometry.outlines import Index, Offsets, Steps, runs
+from batik_vector.geometry.nets import united as united_net
+from batik_vector.geometry.nets.components import components
+from batik_vector.geometry.outlines import Index, Offsets, Steps, of_polygons, runs, to_polygons
+from batik_vector.geometry.regions import oriented
 from batik_vector.geometry.sampling import Indices
 from batik_vector.tiling.torus import overlay
-from batik_vector.tiling.torus.remembered import Asked, identities
+from batik_vector.tiling.torus.remembered import Asked, as_array, identities
 from batik_vector.tiling.welding.congruent import Copies, Stock, together
 
 ROUNDS = 6
 """How often areas that joining brought together are joined again; two are seldom needed, and dense scribbles
 that never come apart on the grid are left as they are."""
+
+NET = 20_000
+"""Vertices of a group from which on it is united as a net; GEOS is as soon done with fewer."""
 
 
 def welded(areas: Geometries) -> tuple[Geometries, Indices]:
@@ -53,9 +59,15 @@ def weld(stock: Stock, copies: Copies, group: Index | None = None) -> tuple[Copi
         group: shape (n,); only those of one group are joined. None joins all.
     """
     group = np.zeros(len(copies), np.intp) if group is None else group
+    near = _near(stock, copies, group, 0)
+    nets, first, left = _nets(stock, copies, near)
+    origin = np.flatnonzero(left)
+    copies, group, place = copies.taken(origin), group[origin], np.cumsum(left) - 1
+    pairs = _met(stock, copies, place[near[left[near[:, 0]]]])
     # Joining moves crossings onto the grid, and may push an edge over a neighbour that it only came
     # near to; then these two are joined as well.
-    return _joined(stock, copies, np.arange(len(copies)), group, _meeting(stock, copies, group, 0))
+    copies, origin = _joined(stock, copies, origin, group, pairs)
+    return _in_order(together([nets, copies]), np.concatenate([first, origin]))
 
 
 def weld_changed(stock: Stock, copies: Copies, group: Index, changed: Index) -> tuple[Copies, Index]:
@@ -82,13 +94,18 @@ def _joined(
         copies, first, single = _united(stock, copies, pairs)
         origin, group = origin[first], group[first]
         pairs = _overlapping(stock, copies, group, single)
+    return _in_order(copies, origin)
+
+
+def _in_order(copies: Copies, origin: Index) -> tuple[Copies, Index]:
+    """Return copies and their origins, these ascending."""
     order = np.argsort(origin, kind="stable")
     return copies.taken(order), origin[order]
 
 
 def _overlapping(stock: Stock, copies: Copies, group: Index, known: int) -> Indices:
     """Return the pairs that share more than borders, but for those among the first ``known``."""
-    pairs = _meeting(stock, copies, group, known)
+    pairs = _met(stock, copies, _near(stock, copies, group, known))
     return pairs[stock.holds(overlap, copies.taken(pairs[:, 0]), copies.taken(pairs[:, 1]))]
 
 
@@ -97,15 +114,69 @@ def overlap(a: Geometries, b: Geometries) -> NDArray[np.bool_]:
     return np.asarray(shapely.relate_pattern(a, b, "T********"))
 
 
-def _meeting(stock: Stock, copies: Copies, group: Index, known: int) -> Indices:
-    """Return the pairs with a point in common, shape (k, 2), but for those among the first ``known``."""
+def _near(stock: Stock, copies: Copies, group: Index, known: int) -> Indices:
+    """Return the pairs of a group whose bounds meet, shape (k, 2), but for those of the first ``known``."""
     late = np.arange(known, len(copies))
     a, b = stock.near(copies.taken(late), copies)
     a = late[a]
     asked = ((b < known) | (a < b)) & (group[a] == group[b])
-    a, b = a[asked], b[asked]
-    met = stock.holds(shapely.intersects, copies.taken(a), copies.taken(b))
-    return np.column_stack([a[met], b[met]])
+    return np.column_stack([a[asked], b[asked]])
+
+
+def _met(stock: Stock, copies: Copies, near: Indices) -> Indices:
+    """Return those of some pairs that have a point in common."""
+    a, b = near.T
+    return near[stock.holds(shapely.intersects, copies.taken(a), copies.taken(b))]
+
+
+def _nets(stock: Stock, copies: Copies, near: Indices) -> tuple[Copies, Index, NDArray[np.bool_]]:
+    """Unite the large groups of copies whose bounds meet, where that can be told for sure.
+
+    Return what they are, the first of the copies that each is made of, and which copies are left.
+    """
+    found, firsts, left = [together([])], [np.empty(0, np.intp)], np.ones(len(copies), bool)
+    shapes, row = stock.used(copies)
+    vertices = shapely.get_num_coordinates(shapes)[row]
+    if vertices.sum() >= NET:
+        label = components(len(copies), near)
+        for each in np.flatnonzero(np.bincount(label, weights=vertices) >= NET).tolist():
+            members = np.flatnonzero(label == each)
+            pairs = np.searchsorted(members, near[label[near[:, 0]] == each])
+            net = _net(stock, copies.taken(members), pairs) if len(pairs) else None
+            if net is not None:
+                found.append(net[0])
+                firsts.append(members[net[1]])
+                left[members] = False
+    return together(found), np.concatenate(firsts), left
+
+
+def _net(stock: Stock, copies: Copies, pairs: Indices) -> tuple[Copies, Index] | None:
+    """Return the union of copies, given which of their bounds meet, and the first that each part is made
+    of."""
+    shapes, row = stock.used(copies)
+    vertices = float(shapely.get_num_coordinates(shapes)[row].sum())
+    work.spend(vertices)
+
+    def make(_: list[int]) -> list[tuple[list[shapely.Geometry], list[int], list[int]] | tuple[()]]:
+        areas = oriented(shapes)
+        net = united_net(of_polygons(areas), areas, row, copies.shift, pairs, overlay.united)
+        if net is None:
+            return [()]
+        return [(to_polygons(net.areas).tolist(), net.first.tolist(), net.alone.tolist())]
+
+    if stock.remembers:
+        rows = np.column_stack([identities(stock.shapes[copies.kind]), copies.shift])
+        known = Asked[tuple[list[shapely.Geometry], list[int], list[int]] | tuple[()]].together(
+            "net", rows, (shapes,)
+        )
+        (made,) = known.answers(make)
+    else:
+        (made,) = make([0])
+    if not made:
+        return None
+    areas, first, alone = made
+    new = stock.add(as_array(areas))
+    return together([new, copies.taken(np.array(alone, np.intp))]), np.array([*first, *alone], np.intp)
 
 
 def _united(stock: Stock, copies: Copies, pairs: Indices) -> tuple[Copies, Index, int]:
@@ -201,25 +272,3 @@ def meeting(areas: Geometries) -> Indices:
         return np.empty((0, 2), np.intp)
     a, b = shapely.STRtree(areas).query(areas, predicate="intersects")
     return np.asarray(np.column_stack([a, b])[a < b])
-
-
-def components(count: int, pairs: Indices) -> Indices:
-    """Return for each of ``count`` items the least item that a chain of pairs connects it with.
-
-    Labels are hooked onto smaller ones and pointers doubled, so the rounds grow with the logarithm of the
-    longest chain (Shiloach and Vishkin, 1982).
-    """
-    label = np.arange(count)
-    while True:
-        low = np.minimum(label[pairs[:, 0]], label[pairs[:, 1]])
-        before = label.copy()
-        for side in (0, 1):
-            np.minimum.at(label, before[pairs[:, side]], low)
-            np.minimum.at(label, pairs[:, side], low)
-        while True:
-            jumped = label[label]
-            if np.array_equal(jumped, label):
-                break
-            label = jumped
-        if np.array_equal(label, before):
-            return label

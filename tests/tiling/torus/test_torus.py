@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from batik_vector.errors import TooLargeError
+from batik_vector.geometry.nets.components import components
 from batik_vector.tiling.torus.seams import joined, rolled, symmetric_difference
 from batik_vector.tiling.torus.torus import (
     Window,
@@ -21,7 +22,7 @@ from batik_vector.tiling.torus.torus import (
     wrap,
 )
 from batik_vector.tiling.welding.duplicates import drawn_once
-from batik_vector.tiling.welding.weld import components, welded
+from batik_vector.tiling.welding.weld import welded
 
 WINDOW = Window(0, 0, 1000, 700)
 GRID = ((1000, 0), (0, 700))
