@@ -36,8 +36,8 @@ from tools import thumbnails, travel
 from tools.starters_sheet import SHEET, sheet
 
 SAMPLES = Path(__file__).resolve().parents[1] / "samples"
-GALLERY, FIGURES = "README.md", "FIGURES.md"
-"""Pages of designs, and of the paper's figures: these prove, they do not please."""
+GALLERY, FIGURES, DRAWINGS = "README.md", "FIGURES.md", "DRAWINGS.md"
+"""Pages of designs, of the paper's figures and of machines' ways: the last two prove, they do not please."""
 WIDTH, HEIGHT = 900, 720
 """Pixels of a picture at most."""
 SHAPE = 3 / 2
@@ -64,6 +64,14 @@ class Sample:
     def picture_path(self) -> Path:
         """Where its picture is kept."""
         return self.path.with_suffix(".png")
+
+    @property
+    def stands_on(self) -> str:
+        """Return the page that shows it: a picture of a tool's ways is no cloth."""
+        if section(self.path) == "figure":
+            return FIGURES
+        ways = (each.travel for each in self.recipe.output if isinstance(each, PngOutput))
+        return DRAWINGS if any(ways) else GALLERY
 
     def picture(self) -> bytes:
         """Return its picture as a PNG file."""
@@ -180,13 +188,14 @@ def paragraphs(text: str) -> list[str]:
 
 
 def gallery(found: list[Sample]) -> str:
-    """Return the page that shows all samples but the paper's figures."""
+    """Return the page that shows the designs."""
     parts = [
         "# Samples\n\nEach picture shows several repeats of the tile. `make golden` draws them and writes "
-        f"this page.\nThe figures of the paper, redrawn, have [a page of their own]({FIGURES})."
+        f"this page.\nThe figures of the paper, redrawn, have [a page of their own]({FIGURES}), and so have "
+        f"[working drawings]({DRAWINGS}), which show the ways of a tool."
     ]
     for word, title in SECTIONS.items():
-        mine = [each for each in found if section(each.path) == word != "figure"]
+        mine = [each for each in found if section(each.path) == word and each.stands_on == GALLERY]
         parts += [f"## {title}", *(each.caption() for each in mine)] if mine else []
     return "\n\n".join(parts) + "\n"
 
@@ -197,8 +206,18 @@ def figures(found: list[Sample]) -> str:
         f"# {SECTIONS['figure']}\n\nThe figures of Tian et al. 2019 as recipes, one repeat each, to hold the "
         f"mathematics against.\n[The designs]({GALLERY}) are made of the same curves."
     )
-    mine = [each.caption() for each in found if section(each.path) == "figure"]
+    mine = [each.caption() for each in found if each.stands_on == FIGURES]
     return "\n\n".join([head, *mine]) + "\n"
+
+
+def drawings(found: list[Sample]) -> str:
+    """Return the page of the ways that tools go."""
+    head = (
+        "# Working drawings\n\nWhat a pen, a knife, a laser or a spout of wax is led along: recipes with all "
+        "the files that a machine takes.\nRed hairs are ways with the tool up. "
+        f"[The designs]({GALLERY}) are made alike."
+    )
+    return "\n\n".join([head, *(each.caption() for each in found if each.stands_on == DRAWINGS)]) + "\n"
 
 
 def same(one: bytes, other: bytes) -> bool:
@@ -243,6 +262,7 @@ def pages(found: list[Sample]) -> dict[Path, str]:
     return {
         SAMPLES / GALLERY: gallery(found),
         SAMPLES / FIGURES: figures(found),
+        SAMPLES / DRAWINGS: drawings(found),
         included.MEASURED: included_page(found),
         travel.PAGE: travel_page(found),
     }

@@ -29,6 +29,7 @@ ELSEWHERE = {
     "README.md": "index.md",
     "samples/README.md": "gallery.md",
     "samples/FIGURES.md": "paper.md",
+    "samples/DRAWINGS.md": "drawings.md",
     "benchmarks/README.md": "benchmarks.md",
 }
 """Pages of the repository that stand outside of docs/, and what the site calls them."""
@@ -38,8 +39,8 @@ FENCE = re.compile(r"^(```.*?^```\s*?$)", re.MULTILINE | re.DOTALL)
 MENU = {
     "Begin": "tutorial first-five-minutes gallery studio",
     "Your job": "howto/designer howto/workshop howto/printer howto/cutter howto/plotter howto/programmer",
-    "More on": "fills structures wax print pens cutting stencils plotting machines audit elsewhere library "
-    "sweeps watch command",
+    "More on": "fills structures wax print pens cutting stencils plotting machines drawings audit elsewhere "
+    "library sweeps watch command",
     "Reference": "recipe api mathematics paper plugins architecture benchmarks releasing",
 }
 """The pages as the side of the site lists them; others come behind what there is more on."""

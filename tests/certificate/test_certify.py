@@ -42,9 +42,9 @@ def sample(name: str) -> Certificate:
         ("kawung", "p4m"),
         ("mega-mendung", "p1"),
         ("tumbling-leaves", "p1"),
-        ("rose-window", "p4m"),
-        ("trellis", "p4"),
-        ("truntum-night", "p4m"),
+        ("jlamprang", "p4m"),
+        ("machine-stencil", "p4m"),
+        ("isen-sampler", "p1"),
     ],
 )
 def test_samples_pass(name: str, group: str) -> None:
