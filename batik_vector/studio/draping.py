@@ -11,7 +11,7 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import TypeAlias
 
-from batik_vector.artwork import Artwork
+from batik_vector.artwork import Artwork, DropAxis
 from batik_vector.errors import TooLargeError
 from batik_vector.export.options import Profile, SvgOptions
 from batik_vector.export.svg import INKSCAPE, svg_text
@@ -19,8 +19,12 @@ from batik_vector.tiling.cloth.field import field_page
 from batik_vector.units import format_mm
 from batik_vector.values import frozen
 
-MOST = 800_000
-"""Vertices of the cloth under a form."""
+MOST = 400_000
+"""Vertices of cloth that are drawn one by one; of finer cloth a block is, and repeated by the browser."""
+BLOCK = 60_000
+"""Vertices of such a block, about: the larger, the fewer edges at which the browser's pixels must meet."""
+SHOWN = SvgOptions(profile=Profile.COMPACT)
+"""How pictures are written: the marks of an ink in as few paths as can be."""
 Bounds: TypeAlias = tuple[float, float, float, float]
 _NUMBER = re.compile(r"-?[0-9.]+")
 _BODY = re.compile(r"<svg\b[^>]*>(.*)</svg>", re.DOTALL)
@@ -199,29 +203,64 @@ def draped(tile: Artwork, name: str) -> tuple[str, tuple[float, float]]:
     """Return a picture of a form in the cloth of a tile, and its size in mm.
 
     Raises:
-        TooLargeError: where the cloth would be too much to show.
+        TooLargeError: where a single tile would be too much to show.
     """
     form = FORMS[name]
     left, top, right, bottom = form.reach
     across = max(1, math.ceil((right - left) / tile.cell.width))
     up = max(1, math.ceil((bottom - top) / tile.cell.height))
-    page = field_page(tile, across, up)
-    if page.vertex_count > MOST:
-        raise TooLargeError(
-            f"the cloth of the {name} has about {page.vertex_count:,} vertices, more than can be shown: look "
-            "at the tile or the field"
-        )
-    cloth = _body(svg_text(page, SvgOptions(profile=Profile.COMPACT)))
     # Its middle lies on the middle of the form: a design that is its own mirror image is worn so.
-    wide, high = _size(page)
+    wide, high = across * tile.cell.width, up * tile.cell.height
     x, y = (left + right - wide) / 2, (top + bottom - high) / 2
+    if too_fine(across * up * tile.vertex_count):
+        cloth = repeated_cloth(tile, (wide, high))
+    else:
+        cloth = _body(svg_text(field_page(tile, across, up), SHOWN))
     moved = f'<g transform="translate({format_mm(x)} {format_mm(y)})">{cloth}</g>'
     return _drawn(form, name, moved), form.size
 
 
+def too_fine(vertices: float) -> bool:
+    """Whether cloth has more vertices than are drawn one by one."""
+    return vertices > MOST
+
+
+def flat(tile: Artwork, size: tuple[float, float]) -> str:
+    """Return a picture of plain cloth, too fine to be drawn mark by mark.
+
+    Raises:
+        TooLargeError: where a single tile would be too much to show.
+    """
+    return _root(size, repeated_cloth(tile, size))
+
+
+def repeated_cloth(tile: Artwork, size: tuple[float, float]) -> str:
+    """Return a rectangle of cloth of which the browser repeats a block; its upper left corner is a tile's.
+
+    Raises:
+        TooLargeError: where a single tile would be too much to show.
+    """
+    cell = tile.cell
+    # So many tiles side by side that what they drop by is whole repeats.
+    columns, rows = (cell.drop.denominator, 1) if cell.axis == DropAxis.COLUMN else (1, cell.drop.denominator)
+    if too_fine(columns * rows * tile.vertex_count):
+        raise TooLargeError(
+            f"the tile has about {tile.vertex_count:,} vertices, more than a cloth of it can show: look at "
+            "the tile, or set a larger tolerance"
+        )
+    more = max(1, math.isqrt(BLOCK // max(columns * rows * tile.vertex_count, 1)))
+    page = field_page(tile, columns * more, rows * more)
+    wide, high = page.cell.width, page.cell.height
+    block = _body(svg_text(page, SHOWN))
+    return (
+        f'<defs><pattern id="block" patternUnits="userSpaceOnUse" width="{format_mm(wide)}" '
+        f'height="{format_mm(high)}">{block}</pattern></defs>'
+        f'<rect width="{format_mm(size[0])}" height="{format_mm(size[1])}" fill="url(#block)"/>'
+    )
+
+
 def _drawn(form: Form, name: str, cloth: str) -> str:
     """Return the picture: what lies under, pieces cut out of the cloth, folds on them, and seams."""
-    width, height = form.size
     soft, thin = max(form.size) / 70, max(form.size) / 700
     defs = [f'<g id="{name}-cloth">{cloth}</g>']
     defs.append(_blur(f"{name}-soft", soft))
@@ -248,11 +287,15 @@ def _drawn(form: Form, name: str, cloth: str) -> str:
         shown.append(
             f'<circle cx="{x:g}" cy="{y:g}" r="7" fill="#f3efe6" stroke="{DARK}" stroke-opacity="0.6"/>'
         )
-    root = (
+    return _root(form.size, f"<defs>{''.join(defs)}</defs>{''.join(shown)}")
+
+
+def _root(size: tuple[float, float], drawn: str) -> str:
+    width, height = size
+    return (
         f'<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="{INKSCAPE}" '
-        f'width="{width:g}mm" height="{height:g}mm" viewBox="0 0 {width:g} {height:g}">'
+        f'width="{width:g}mm" height="{height:g}mm" viewBox="0 0 {width:g} {height:g}">{drawn}</svg>\n'
     )
-    return f"{root}<defs>{''.join(defs)}</defs>{''.join(shown)}</svg>\n"
 
 
 def _blur(name: str, reach: float) -> str:
@@ -268,11 +311,6 @@ def _tones(tones: Sequence[Tone]) -> str:
     return "".join(
         f'<path d="{each.outline}" fill="{each.colour}" fill-opacity="{each.opacity:g}"/>' for each in tones
     )
-
-
-def _size(page: object) -> tuple[float, float]:
-    cell = page.cell  # type: ignore[attr-defined]
-    return cell.width, cell.height
 
 
 def _body(svg: str) -> str:

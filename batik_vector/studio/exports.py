@@ -73,6 +73,24 @@ def export(draft: Draft, wishes: Wishes, tell: Callable[[str], None] = lambda _:
     return Exported(files, report, seconds=time.perf_counter() - begun)
 
 
+def with_output(draft: Draft, format_: str, values: Mapping[str, Any]) -> Draft:
+    """Return the draft with values set in each of its outputs of a format, or in one that is added.
+
+    Raises:
+        RecipeError: where they cannot be set.
+    """
+    if not values:
+        return draft
+    held = draft.tables.get("output", [])
+    outputs = held if isinstance(held, list) else [held]
+    places = [number for number, each in enumerate(outputs) if each.get("format") == format_]
+    if not places:
+        return draft.inserted("output", {"format": format_, **values})
+    return draft.with_values(
+        {f"output[{place}].{key}": value for place in places for key, value in values.items()}
+    )
+
+
 def _job(draft: Draft, wishes: Wishes, folder: Path) -> Job:
     recipe = read_recipe(draft.text, draft.stem, folder=draft.folder, drawings=dict(draft.drawings))
     called: dict[str, Any] = {}

@@ -33,11 +33,13 @@ PANELS: Mapping[str, tuple[str, ...]] = {
     "pattern": ("motif",),
     "layout": ("place",),
     "tile": ("tile", ""),
-    "inks": ("ink", "colourway"),
+    "inks": ("palette", "ink", "colourway"),
     "cloth": ("cloth", "yardage", "border"),
     "outputs": ("output",),
 }
 """The panels in their order, the paper's two first, and what of the recipe each shows; "" is its own keys."""
+ASIDE = ("palette",)
+"""Keys of the recipe's own that stand in another panel than the rest."""
 
 
 @frozen
@@ -143,7 +145,9 @@ def panels(draft: Draft, faults: Sequence[Fault] | None = None) -> tuple[Panel, 
     whole = root(draft.tables)
     shown = []
     for name, keys in PANELS.items():
-        groups = [walk.scalars(whole) if not key else walk.member(whole, (), key) for key in keys]
+        groups = [
+            walk.scalars(whole, key) if key in ("", *ASIDE) else walk.member(whole, (), key) for key in keys
+        ]
         shown.append(Panel(name, tuple(group for group in groups if group is not None)))
     return tuple(shown)
 
@@ -180,13 +184,14 @@ class _Walk:
     def __init__(self, draft: Draft, tables: Mapping[str, Any], faults: _Faults) -> None:
         self._draft, self._tables, self._faults = draft, tables, faults
 
-    def scalars(self, whole: Place) -> Group:
-        """Return the recipe's own keys: its title, tolerance and so on."""
+    def scalars(self, whole: Place, key: str = "") -> Group:
+        """Return the recipe's own keys: its title, tolerance and so on; or one that stands elsewhere."""
         found: list[Control] = []
         for name, member in members(Recipe).items():
-            if is_scalar(member.hint) and (place := inner(whole, name)) is not None:
+            meant = name == key if key else name not in ASIDE
+            if meant and is_scalar(member.hint) and (place := inner(whole, name)) is not None:
                 found += self._controls(place, (name,))
-        return Group("", "design", "the recipe as a whole", tuple(found))
+        return Group(key, key or "design", "the recipe as a whole", tuple(found))
 
     def member(self, around: Place, path: Path, name: str) -> Group | None:
         """Return the group of a key that holds a table or tables."""

@@ -18,7 +18,6 @@ from batik_vector.artwork import Artwork, Page
 from batik_vector.compiling.compiler import compile_cloth, compile_recipe
 from batik_vector.compiling.foretelling import foretold
 from batik_vector.errors import BatikError, Fault, RecipeError, TooLargeError
-from batik_vector.export.options import Profile, SvgOptions
 from batik_vector.export.svg import svg_text
 from batik_vector.making.facts import facts_of, warnings
 from batik_vector.making.promised import asked_group
@@ -27,7 +26,7 @@ from batik_vector.recipe.model import Recipe, YardageSpec
 from batik_vector.studio.asking import SCREEN
 from batik_vector.studio.asking import View as View
 from batik_vector.studio.drafts import Draft
-from batik_vector.studio.draping import FORMS, draped
+from batik_vector.studio.draping import FORMS, SHOWN, draped, flat, too_fine
 from batik_vector.studio.lines import as_lines
 from batik_vector.tiling.cloth.field import field_page
 from batik_vector.tiling.tossing.falls import Falls
@@ -131,6 +130,8 @@ class Looker:
         """Return a picture and how much cloth it shows, in mm."""
         if view.kind == "yardage" or tile is None:
             page: Page = _cloth(recipe, tile, tell)
+            if recipe.yardage is None and tile is not None and too_fine(page.vertex_count):
+                return flat(tile, (METRE, METRE)), (METRE, METRE)
         elif view.kind in FORMS:
             return draped(tile, view.kind)
         elif view.kind == "tile":
@@ -185,10 +186,6 @@ def _tolerance(recipe: Recipe, view: View) -> float:
         return view.tolerance
     side = count * max(recipe.tiling.cell().width, recipe.tiling.cell().height)
     return max(view.tolerance, side / ROUGH) if view.rough else min(view.tolerance, side / FINE)
-
-
-SHOWN = SvgOptions(profile=Profile.COMPACT)
-"""How pictures are written: the marks of an ink in as few paths as can be."""
 
 
 def _cloth(recipe: Recipe, tile: Artwork | None, tell: Callable[[str], None]) -> Page:

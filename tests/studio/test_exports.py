@@ -11,7 +11,7 @@ from batik_vector.export import FORMATS
 from batik_vector.making.jobs import planned, read_jobs, run_quietly
 from batik_vector.studio.asking import Wishes
 from batik_vector.studio.drafts import Draft
-from batik_vector.studio.exports import Exported, download, export, file_names, zipped
+from batik_vector.studio.exports import Exported, download, export, file_names, with_output, zipped
 from batik_vector.studio.pictures import EXPORT, Pictures
 from tests.studio.test_drafts import FLOWER
 
@@ -48,6 +48,22 @@ def test_a_draft_that_was_changed_is_what_the_command_makes_of_its_text(tmp_path
     draft = Draft.read(SAMPLES / "kawung.toml").with_value("seed", 5).with_value("title", "Mine")
     (tmp_path / "kawung.toml").write_text(draft.text, encoding="utf-8")
     assert export(draft, Wishes()).files == commands(tmp_path / "kawung.toml", tmp_path / "out", ())
+
+
+@pytest.mark.parametrize("outputs", ["", '\n[[output]]\nformat = "pdf"\nname = "press"\nbleed = "3 mm"\n'])
+def test_what_is_chosen_of_a_format_is_what_the_command_makes_of_a_recipe_that_says_so(
+    tmp_path: Path, outputs: str
+) -> None:
+    draft = with_output(
+        Draft(FLOWER + outputs, stem="mine"), "pdf", {"pages": "tile", "page": "210 x 297 mm"}
+    )
+    made = export(draft, Wishes(("pdf",)))
+    (tmp_path / "mine.toml").write_text(draft.text, encoding="utf-8")
+    assert made.files == commands(tmp_path / "mine.toml", tmp_path / "out", ("pdf",))
+    (data,) = made.files.values()
+    # 300 mm are two sheets of A4 across and two down.
+    assert b"/Count 4" in data
+    assert with_output(draft, "pdf", {}) is draft
 
 
 def test_processes_and_machines_are_those_of_the_call() -> None:

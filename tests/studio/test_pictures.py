@@ -17,6 +17,7 @@ import pytest
 
 from batik_vector import Artwork, Profile, Recipe, SvgOptions, compile_recipe, render
 from batik_vector.errors import GeometryError
+from batik_vector.studio import draping
 from batik_vector.studio.asking import KINDS, View
 from batik_vector.studio.changes import scaled
 from batik_vector.studio.drafts import Draft
@@ -107,6 +108,26 @@ def test_small_tiles_are_drawn_finer_and_a_slider_that_moves_coarser() -> None:
     assert counted[0.5, False][0] > 2 * counted[0.5, True][0]
     assert counted[5, False][0] > counted[0.5, False][0]
     assert counted[5, True][0] == pytest.approx(counted[0.5, True][0], rel=0.05)
+
+
+@pytest.mark.parametrize(
+    ("repeat", "block"), [("grid", (20, 30)), ("half-drop", (40, 30)), ("brick", (20, 60))]
+)
+def test_cloth_too_fine_to_be_drawn_mark_by_mark_is_a_block_that_repeats(
+    repeat: str, block: tuple[float, float], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # One mark a tile, so that a block can be told from its neighbours by its edges alone.
+    draft = Draft(FLOWER).with_values(
+        {"tile.size": ["20 mm", "30 mm"], "tile.repeat": repeat, "place[0].width": "12 mm"}
+    )
+    monkeypatch.setattr(draping, "BLOCK", 1)
+    monkeypatch.setattr(draping, "MOST", 5000)
+    for kind in ("yardage", "shirt"):
+        shown = Looker().look(draft, View(kind))
+        assert not shown.faults
+        assert f'width="{block[0]}" height="{block[1]}"' in shown.svg.partition("<pattern")[2][:200]
+    monkeypatch.setattr(draping, "MOST", 10)
+    assert "larger tolerance" in Looker().look(draft, View("shirt")).faults[0].message
 
 
 def test_faults_have_their_keys_and_lines() -> None:

@@ -61,6 +61,20 @@ class Controls:
             mine = Group(f"panel:{panel.name}", panel.name.capitalize(), groups=panel.groups)
             self.section(mine, self.rows, 0, len(found))
 
+    def reveal(self, *paths: str) -> None:
+        """Open sections, the outermost first, and bring the last one into sight."""
+        self.open.update(paths)
+        for path in paths:
+            section = self._sections.get(path)
+            if section is not None and not section.is_open:
+                section.toggle()
+        self.refresh()
+        last = self._sections.get(paths[-1])
+        if last is not None:
+            ui.run_javascript(
+                f"getHtmlElement({last.box.id})?.scrollIntoView({{block: 'center', behavior: 'smooth'}})"
+            )
+
     def section(self, shown: Group, around: ui.element, depth: int, siblings: int) -> None:
         """Show a group: one that is there already is brought up to date."""
         section = self._sections.get(shown.path)
@@ -103,7 +117,7 @@ class Section:
         self._rows: dict[str, Row] = {}
         self._shape: tuple[object, ...] = ()
         # A list among the panel's own headings says nothing that its members do not say.
-        self.flat = depth == 1 and not shown.controls and shown.path in ("motif", "place", "ink", "output")
+        self.flat = depth == 1 and shown.path in ("motif", "place", "ink", "output", "palette")
         self.box = group(f"section depth-{depth}" + (" flat" if self.flat else ""))
         with self.box:
             if not self.flat:
@@ -111,6 +125,12 @@ class Section:
             self.body = group("section-body")
             self.foot = group("section-foot")
         self.is_open = self.flat or shown.path in controls.open
+
+    @property
+    def bare(self) -> bool:
+        """Whether there is nothing of it yet but what can be added: that is said in one line."""
+        shown = self.shown
+        return bool(shown.offers) and not (self.flat or shown.controls or shown.groups or shown.fault)
 
     def toggle(self) -> None:
         """Open it, or close it."""
@@ -123,9 +143,12 @@ class Section:
     def update(self, shown: Group, siblings: int) -> None:
         """Show a group as it is now."""
         self.shown, self._siblings = shown, siblings
+        # What comes in where there was nothing is looked at.
+        self.is_open = self.is_open or self.bare
         more = shown.path in self.controls.more
         shape = (
             self.is_open,
+            self.bare,
             more,
             siblings,
             shown.label,
@@ -149,6 +172,8 @@ class Section:
     def _build(self, more: bool) -> None:
         if not self.flat:
             self.head.clear()
+            self.head.set_visibility(not self.bare)
+            self.box.classes(add="bare" if self.bare else "", remove="" if self.bare else "bare")
             with self.head:
                 self._heading()
         self.body.clear()

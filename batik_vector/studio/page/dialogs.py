@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from nicegui import ui
 
 from batik_vector.errors import BatikError
+from batik_vector.library.names import name_from
 from batik_vector.studio import changes
 from batik_vector.studio.page.library import Thumb
 from batik_vector.studio.page.parts import (
@@ -106,15 +107,23 @@ def save_as(session: Session) -> None:
 
         async def save() -> None:
             tagged = [each.strip() for each in (tags.value or "").split(",") if each.strip()]
+            # A name is made one that the library and all systems take; what came of it is told.
+            called = name_from((name.value or "").strip() or session.suggested_name())
+            name.set_value(called)
+            go.props("loading")
             try:
-                await saved(session, (name.value or "").strip(), tagged, note.value or "")
+                if session.is_included:
+                    session.entitle(called)
+                await saved(session, called, tagged, note.value or "")
             except BatikError as error:
                 say(wrong, str(error))
                 return
+            finally:
+                go.props(remove="loading")
             made.close()
 
         name.on("keydown.enter", save)
-        buttons(made, "Save", save)
+        go = buttons(made, "Save", save)
 
 
 def paste(session: Session) -> None:

@@ -226,8 +226,10 @@ window.studio = (() => {
   const LARGEST = 20e6;
   async function send(file) {
     if (file.size > LARGEST) return window.emitEvent("studio-refused", `${file.name} has ${(file.size / 1e6).toFixed(0)} MB: at most ${LARGEST / 1e6} MB are taken`);
+    document.body.dataset.reading = `Reading ${file.name} …`;
     const answer = await fetch(`/studio/drop?name=${encodeURIComponent(file.name)}`, { method: "POST", body: file,
       headers: { "content-type": "application/octet-stream" } }).catch(() => null);
+    delete document.body.dataset.reading;
     const said = answer ? await answer.text() : `${file.name} could not be sent`;
     window.emitEvent(answer && answer.ok ? "studio-dropped" : "studio-refused", said);
   }

@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 import time
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from nicegui import background_tasks, ui
 
+from batik_vector.errors import BatikError
 from batik_vector.export import FORMATS
 from batik_vector.machines import MACHINES
+from batik_vector.processes.options import PROCESSES
 from batik_vector.studio.asking import Wishes
-from batik_vector.studio.exports import Exported, download
+from batik_vector.studio.exports import Exported, download, with_output
 from batik_vector.studio.page.dialogs import dialog
-from batik_vector.studio.page.parts import group, main_button, report, say, text, word_button
+from batik_vector.studio.page.parts import group, main_button, offering, report, say, text, word_button
 from batik_vector.studio.pictures import EXPORT
 
 if TYPE_CHECKING:
+    from batik_vector.studio.drafts import Draft
     from batik_vector.studio.page.session import Session
 
 USUAL = ("svg", "pdf")
@@ -23,12 +26,18 @@ USUAL = ("svg", "pdf")
 NONE = "none"
 LABELS = {"gcode": "G-code", "swatch": "Swatch"}
 """What formats are called whose names are not their letters."""
+AS_SAID, FULL, TAPED = "", "full", "taped"
+PAPERS = {"A4": ("210 mm", "297 mm"), "A3": ("297 mm", "420 mm"), "Letter": ("215.9 mm", "279.4 mm")}
+INKS = {AS_SAID: "as on the screen", "spot": "separations, a plate for each ink"}
 
 
 def export(session: Session) -> None:
     """Open the dialog."""
     with dialog("Export", "wide") as made:
         Exporting(session, made)
+
+
+Part: TypeAlias = "tuple[Draft, Wishes]"
 
 
 class Exporting:
@@ -42,21 +51,23 @@ class Exporting:
         with group("verdict").props("role=status") as self.verdict_box:
             self.verdict = text("Measuring the tile for the seam certificate …", "quiet")
         with group("formats"):
-            self.ticks = {
-                name: ui.checkbox(LABELS.get(name, name.upper()), value=name in (asked or USUAL)).props(
-                    "dense"
-                )
-                for name in FORMATS
-            }
-            for name, tick in self.ticks.items():
-                with tick:
-                    ui.tooltip(FORMATS[name].says).props("delay=500")
-            self.recipe = ui.checkbox("Recipe (TOML)", value=False).props("dense")
+            self.ticks = {}
+            for name, format_ in FORMATS.items():
+                label, says = LABELS.get(name, name.upper()), format_.says
+                self.ticks[name] = self._tick(label, says, name in (asked or USUAL))
+            self.recipe = self._tick("Recipe (TOML)", "to open it here again", False)
+        with group("line-of-fields") as pdf:
+            self.pages = ui.select(self._pages(), value=AS_SAID, label="PDF pages").props("outlined dense")
+            self.inks = ui.select(INKS, value=AS_SAID, label="PDF colours").props("outlined dense")
+        pdf.bind_visibility_from(self.ticks["pdf"], "value")
         with group("line-of-fields"):
             machines = {NONE: "no machine", **{name: name for name in MACHINES}}
             self.machine = ui.select(machines, value=NONE, label="Machine").props("outlined dense")
             self.process = ui.input("Process, as in: cut kerf=0.15mm").props("outlined dense")
-        text("Options of each format are set under Outputs.", "quiet small", "p")
+            offering(self.process, "Choose a process", list(PROCESSES), self.process.set_value)
+        text(
+            "Files are true to size. All other options of a format are set under Outputs.", "quiet small", "p"
+        )
         self.told = text("", "wrong", "p").props("role=alert")
         with group("dialog-foot"):
             self.stop = word_button("Stop", lambda: session.images.cancel(EXPORT))
@@ -64,6 +75,46 @@ class Exporting:
             word_button("Cancel", made.close)
             self.go = main_button("Download", self._export)
         background_tasks.create(self._certify())
+
+    def _tick(self, label: str, says: str, on: bool) -> ui.checkbox:
+        """Draw a box to tick, with what the file is for below its name."""
+        with group("format"):
+            made = ui.checkbox(label, value=on).props("dense")
+            text(says, "quiet small")
+        return made
+
+    def _pages(self) -> dict[str, str]:
+        """Return what the pages of a PDF may be; a cloth is never made to fit a sheet."""
+        tables = {} if self.draft.faults else self.draft.tables
+        found = {AS_SAID: "one, as large as the design"}
+        if "tile" in tables and "yardage" not in tables:
+            found |= {f"{FULL} {name}": f"one sheet of {name}, full of the pattern" for name in PAPERS}
+        return found | {f"{TAPED} {name}": f"sheets of {name}, to tape together" for name in PAPERS}
+
+    def _parts(self, formats: tuple[str, ...], processes: tuple[str, ...], machine: str) -> list[Part]:
+        """Return what is exported: with what is said of a PDF, that apart from all else."""
+        recipe = bool(self.recipe.value)
+        how, _, paper = str(self.pages.value or AS_SAID).partition(" ")
+        values: dict[str, Any] = {}
+        draft = self.draft
+        if how == TAPED:
+            # Sheets overlap by more than printers leave white along both edges.
+            width, length = PAPERS[paper]
+            page = f"{width.removesuffix(' mm')} x {length}"
+            values = {"pages": "tile", "page": page, "overlap": "15 mm"}
+        if how == FULL:
+            width, length = PAPERS[paper]
+            draft = draft.with_value("yardage", {"width": width, "length": length})
+            values = {"piece": "yardage"}
+        if self.inks.value:
+            values["inks"] = self.inks.value
+        if "pdf" not in formats or not values:
+            return [(self.draft, Wishes(formats or ("svg",), processes, machine, recipe))]
+        rest = tuple(each for each in formats if each != "pdf")
+        parts = [(with_output(draft, "pdf", values), Wishes(("pdf",), processes, machine, False))]
+        if rest or recipe:
+            parts.append((self.draft, Wishes(rest or ("svg",), processes, machine, recipe)))
+        return parts
 
     def _asked(self) -> list[str]:
         outputs = self.draft.tables.get("output", []) if not self.draft.faults else []
@@ -93,22 +144,26 @@ class Exporting:
             return
         machine = str(self.machine.value or NONE)
         process = str(self.process.value or "").strip()
-        wishes = Wishes(
-            formats or ("svg",), (process,) if process else (), "" if machine == NONE else machine,
-            bool(self.recipe.value),
-        )  # fmt: skip
+        asked = formats, (process,) if process else (), "" if machine == NONE else machine
         self.go.props("loading")
         self.stop.set_visibility(True)
         begun = time.perf_counter()
+        files: dict[str, bytes] = {}
         try:
-            done = await self.session.images.export(self.draft, wishes, tell=self._tell)
+            for draft, wishes in self._parts(*asked):
+                done = await self.session.images.export(draft, wishes, tell=self._tell)
+                if done.faults:
+                    say(self.told, "; ".join(str(each) for each in done.faults[:3]))
+                    return
+                # What is asked for is the recipe alone, and some file is made in any case.
+                wanted = {*formats} & {*wishes.formats}
+                files |= {k: v for k, v in done.files.items() if wanted or k.endswith(".toml")}
+        except BatikError as error:
+            say(self.told, str(error))
+            return
         finally:
             self.go.props(remove="loading")
             self.stop.set_visibility(False)
-        if done.faults:
-            say(self.told, "; ".join(str(each) for each in done.faults[:3]))
-            return
-        files = dict(done.files) if formats else {k: v for k, v in done.files.items() if k.endswith(".toml")}
         name, data = download(Exported(files), self.draft.stem)
         number = self.session.keep_file(name, data)
         ui.download.from_url(f"/studio/download/{number}")

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from nicegui import ui
 
 from batik_vector.studio.offers import offered_colours
-from batik_vector.studio.page.parts import group, icon_button, say, text, told
+from batik_vector.studio.page.parts import group, icon_button, offering, say, text, told
 from batik_vector.studio.page.slide import Slide
 from batik_vector.studio.text.spelling import spelled
 
@@ -26,7 +26,11 @@ def shown(value: Any) -> str:
         return ""
     if isinstance(value, bool):
         return "true" if value else "false"
-    if isinstance(value, int | float):
+    if isinstance(value, int):
+        # Millions are read better by their figures, and fit into the field: 1e7.
+        short = f"{value:.6g}".replace("e+0", "e").replace("e+", "e")
+        return short if float(short) == value else str(value)
+    if isinstance(value, float):
         return f"{value:.6g}" if math.isfinite(value) else ""
     if isinstance(value, list) and value and all(isinstance(each, str) for each in value):
         words = ", ".join(value)
@@ -121,11 +125,10 @@ class Row:
             made.on("blur", self._typed).on("keydown.enter", self._typed)
             if control.unit:
                 made.props(f'suffix="{control.unit}"')
+            if control.kind == "list":
+                made.props('placeholder="none"')
             if control.kind == "text" and control.choices:
-                made.props(f'list="choices-{control.path}"')
-                with self.box, ui.element("datalist").props(f'id="choices-{control.path}"'):
-                    for each in control.choices:
-                        ui.element("option").props(f'value="{each}"')
+                offering(made, f"Choose {self.words}", control.choices, self._set)
             if control.kind == "colour":
                 self._picker(made)
         return self._labelled(made)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from nicegui import ui
 
+from batik_vector.studio.drops import MOTIF_NOW
 from batik_vector.studio.page.commands import Commands
 from batik_vector.studio.page.controls import Controls
 from batik_vector.studio.page.display import Display
@@ -77,7 +78,7 @@ class Page:
         client.on_connect(self._look_at_screen)
         ui.on("studio-pasted", self._pasted)
         ui.on("studio-refused", lambda event: complain(str(event.args)))
-        ui.on("studio-dropped", lambda event: report(str(event.args)))
+        ui.on("studio-dropped", self._dropped)
         self.display.refresh()
         self._show_rest()
 
@@ -136,6 +137,13 @@ class Page:
     def _pasted(self, event: Any) -> None:
         with told():
             self.session.paste(str(event.args))
+
+    def _dropped(self, event: Any) -> None:
+        report(str(event.args))
+        placed = self.session.draft.tables.get("place") if not self.session.draft.faults else None
+        if str(event.args).endswith(MOTIF_NOW) and placed:
+            # The next that a hand wants is to set it somewhere, and in some size.
+            self.controls.reveal("panel:layout", f"place[{len(placed) - 1}]")
 
     def _open_left(self) -> None:
         self.frame.classes(toggle="open")

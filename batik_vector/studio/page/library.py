@@ -19,7 +19,8 @@ if TYPE_CHECKING:
 
 CONDITION = ("<", ">", "=", "..")
 """What a search holds where it is a condition on features."""
-SHOWN_AT_ONCE = 60
+SHOWN_AT_ONCE, MOST_SHOWN = 60, 1000
+"""Patterns shown at first, and once all are asked for: more would keep the page busy."""
 
 
 class Thumb(ui.element, component="thumb.js"):
@@ -49,6 +50,7 @@ class LibraryPanel:
     def __init__(self, session: Session) -> None:
         self.session = session
         self._asked = 0
+        self._most = SHOWN_AT_ONCE
         with group("column"):
             with group("searching"):
                 self.words = (
@@ -67,7 +69,13 @@ class LibraryPanel:
                     self.said = text("", "quiet small").props("role=status")
             with group("scroll grow"):
                 self.shelf = group("shelf")
+                self.more = word_button("Show all", self._show_all).classes("more")
+        self.more.set_visibility(False)
         ui.context.client.on_delete(session.on_library(self.refresh))
+        self.refresh()
+
+    def _show_all(self) -> None:
+        self._most = MOST_SHOWN
         self.refresh()
 
     def refresh(self) -> None:
@@ -91,7 +99,7 @@ class LibraryPanel:
         found.sort(key=lambda hit: (hit.included, hit.included and not hit.name.startswith("starter/")))
         self.shelf.clear()
         with self.shelf:
-            for hit in found[:SHOWN_AT_ONCE]:
+            for hit in found[: self._most]:
                 label = hit.title or hit.name
                 card(
                     hit.name,
@@ -102,8 +110,11 @@ class LibraryPanel:
                 )
         # What is shown answers these words: whoever drives the page waits for it.
         self.shelf.props(f'data-words="{_attribute(words)}"')
-        if len(found) > SHOWN_AT_ONCE:
-            say(self.said, f"{SHOWN_AT_ONCE} of {len(found)} patterns")
+        self.more.set_visibility(self._most < min(len(found), MOST_SHOWN))
+        if len(found) > self._most:
+            say(self.said, f"{self._most} of {len(found)} patterns")
+        elif found:
+            say(self.said, f"{len(found)} pattern{'s' if len(found) > 1 else ''}")
 
 
 class VersionsPanel:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import asyncio
 import inspect
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
 from nicegui import ui
 
 from batik_vector.errors import BatikError
+from batik_vector.recipe.palettes import PALETTES
 
 
 def icon_button(icon: str, label: str, action: Callable[..., Any], *, tip: str = "") -> ui.button:
@@ -32,6 +33,29 @@ def word_button(
     return (
         ui.button(label, on_click=action, icon=icon, color=None).props("flat dense no-caps").classes("plain")
     )
+
+
+def offering(field: ui.input, label: str, words: Sequence[str], take: Callable[[str], Any]) -> ui.button:
+    """Put a button at the end of a field, with a menu of words that it may say; it takes others, too.
+
+    Args:
+        field: that words are offered for.
+        label: of the button, read out.
+        words: offered; a name of a palette stands beside its colours.
+        take: given the word that is chosen.
+    """
+    with field.add_slot("append"):
+        made = ui.button(icon="arrow_drop_down", color=None).props(f'flat dense aria-label="{label}"')
+        with made.classes("plain offered"), ui.menu().props("auto-close"):
+            for each in words:
+                with ui.menu_item(on_click=lambda each=each: take(each)).props("dense"):
+                    with ui.item_section():
+                        text(each)
+                    if each in PALETTES:
+                        with ui.item_section().props("side"), group("dots"):
+                            for colour in PALETTES[each].colours:
+                                group("dot").style(f"background: {colour}")
+    return made
 
 
 def main_button(label: str, action: Callable[..., Any]) -> ui.button:

@@ -32,7 +32,9 @@ class RecipeText:
         if seen and self.editor is None:
             with self.box:
                 self._typed = self.session.text
-                self.editor = ui.codemirror(self._typed, language="TOML", on_change=self._changed)
+                self.editor = ui.codemirror(
+                    self._typed, language="TOML", line_wrapping=True, on_change=self._changed
+                )
                 self.editor.classes("grow")
                 self.darken(self._dark)
         self.refresh()

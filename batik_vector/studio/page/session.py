@@ -325,6 +325,14 @@ class Session:
         _call(self._library_listeners)
         return f"Saved as {saved}@{version}" if fresh else f"{saved}@{version} says the same already"
 
+    def entitle(self, name: str) -> None:
+        """Call what began with a pattern of ours by the name that it is saved under, its files likewise.
+
+        Raises:
+            BatikError: where the recipe's text is no TOML.
+        """
+        self.alter("named", lambda draft: replace(draft.with_value("title", name), stem=name))
+
     async def restore(self, reference: str) -> str:
         """Make an old version the newest, and open it; return in words what came of it."""
         saved = await self.shelf.restore(reference)
