@@ -3,7 +3,8 @@
 python -m benchmarks.studio samples/four-square.toml motif.flower.petal.length
 
 A value is put into the slider's own event every time the picture before it has been drawn, so that each is
-waited for; the time runs in the browser, from the event to the frame after the picture is in the page. Then
+waited for; the time runs in the browser, from the event to the frame after the picture is in the page. The
+first that is seen of it ("first") is, where a pattern is slow, its motif alone. Then
 it is dragged at the pace of a hand: how many values were given, and how many pictures were seen meanwhile.
 Before that, seconds from the command to its address, and in the browser from the address to the first paint
 and to the first picture.
@@ -26,13 +27,14 @@ VALUES = 40
 WARM = 8
 ONE = """
 async ([id, value]) => {
-  const before = studio.state.shown, begun = performance.now();
+  const { shown, alone } = studio.state, begun = performance.now();
   getElement(id).move(value);
-  while (studio.state.shown === before) {
+  while (studio.state.shown === shown) {
     if (performance.now() - begun > 20000) return null;
     await new Promise(requestAnimationFrame);
   }
-  return studio.state.at - begun;
+  const whole = studio.state.at - begun;
+  return [whole, studio.state.alone === alone ? whole : Math.min(studio.state.aloneAt - begun, whole)];
 }
 """
 DRAGGED = """
@@ -84,7 +86,8 @@ def measure(recipe: Path, path: str) -> dict[str, float | int | str]:
         values = [middle + reach * (step % 20 - 10) / 10 for step in range(WARM + VALUES)]
         taken = [page.page.evaluate(ONE, [number, value]) for value in values][WARM:]
         seen = page.page.evaluate(DRAGGED, [number, values, 33])
-    got = sorted(each for each in taken if each is not None)
+    got = sorted(each[0] for each in taken if each is not None)
+    first = sorted(each[1] for each in taken if each is not None)
     return {
         "recipe": recipe.stem,
         "start_s": round(seconds, 2),
@@ -92,6 +95,8 @@ def measure(recipe: Path, path: str) -> dict[str, float | int | str]:
         "first_picture_s": round(picture / 1000, 2),
         "median_ms": round(statistics.median(got), 1),
         "p95_ms": round(got[int(0.95 * (len(got) - 1))], 1),
+        "first_median_ms": round(statistics.median(first), 1),
+        "first_p95_ms": round(first[int(0.95 * (len(first) - 1))], 1),
         "lost": len(taken) - len(got),
         "dragged": len(values),
         "seen": seen,

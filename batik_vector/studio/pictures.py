@@ -33,7 +33,7 @@ LIMIT = 30.0
 """Seconds that a picture may take, unless an ask says otherwise."""
 EXPORT_LIMIT = 600.0
 """Seconds that an export may take."""
-FRONT, BACK, EXPORTING = "front", "back", "export"
+FRONT, BACK, DETAIL, EXPORTING = "front", "back", "detail", "export"
 EXPORT = "\0export"
 """The lane of exports, for :meth:`Pictures.cancel`."""
 PATIENCE, USUAL = 2.0, 3.0
@@ -87,8 +87,9 @@ class Pictures:
         """
         self._limit = limit
         self._threads = ThreadPoolExecutor(4, thread_name_prefix="batik-pictures")
-        # One process serves what is looked at, one all that may wait, and one makes files.
-        self._hands = {which: _Hand(spare=which == FRONT) for which in (FRONT, BACK, EXPORTING)}
+        # One process serves what is looked at, one all that may wait, one draws motifs, one makes files.
+        kinds = (FRONT, BACK, DETAIL, EXPORTING)
+        self._hands = {which: _Hand(spare=which == FRONT) for which in kinds}
         self._turns: dict[str, asyncio.Lock] = {}
         self._newest: dict[str, int] = {}
         self._running: dict[str, tuple[_Hand, float]] = {}
@@ -102,6 +103,10 @@ class Pictures:
     async def warm(self) -> None:
         """Start the process that serves what is looked at, and wait until it is ready."""
         await self.ask(Draft(""), View(), lane="\0warm")
+
+    async def warm_detail(self) -> None:
+        """Start the process that draws motifs alone, and wait until it is ready."""
+        await self.ask(Draft(""), View(motif="none"), lane="\0warm-detail")
 
     async def ask(
         self,
@@ -126,9 +131,8 @@ class Pictures:
         """
         view = view or View()
         begun = time.perf_counter()
-        found = await self._taken(
-            draft, view, lane, BACK if background else FRONT, limit or self._limit, tell
-        )
+        which = DETAIL if view.motif else BACK if background else FRONT
+        found = await self._taken(draft, view, lane, which, limit or self._limit, tell)
         if found is None:
             return None
         waited = time.perf_counter() - begun

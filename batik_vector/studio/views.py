@@ -28,6 +28,7 @@ from batik_vector.studio.asking import View as View
 from batik_vector.studio.drafts import Draft
 from batik_vector.studio.draping import FORMS, SHOWN, draped, flat, too_fine
 from batik_vector.studio.lines import as_lines
+from batik_vector.studio.motif_alone import alone, cropped
 from batik_vector.tiling.cloth.field import field_page
 from batik_vector.tiling.tossing.falls import Falls
 from batik_vector.values import frozen
@@ -87,6 +88,10 @@ class Looker:
         return replace(shown, seconds=time.perf_counter() - begun)
 
     def _look(self, draft: Draft, view: View, tell: Callable[[str], None]) -> Shown:
+        if view.motif:
+            whole = read_recipe(draft.text, draft.stem, folder=draft.folder, drawings=dict(draft.drawings))
+            one = compile_recipe(alone(whole, view.motif))
+            return Shown(cropped(svg_text(one, SHOWN), one))
         recipe, tile = self._compiled(draft, view, tell)
         tell("drawing")
         verdict: Mapping[str, Any] = {}

@@ -13,10 +13,13 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
+import shapely
 
 from batik_vector import Artwork, Profile, Recipe, SvgOptions, compile_recipe, render
 from batik_vector.errors import GeometryError
+from batik_vector.recipe.loading import read_recipe
 from batik_vector.studio import draping
 from batik_vector.studio.asking import KINDS, View
 from batik_vector.studio.changes import scaled
@@ -128,6 +131,20 @@ def test_cloth_too_fine_to_be_drawn_mark_by_mark_is_a_block_that_repeats(
         assert f'width="{block[0]}" height="{block[1]}"' in shown.svg.partition("<pattern")[2][:200]
     monkeypatch.setattr(draping, "MOST", 10)
     assert "larger tolerance" in Looker().look(draft, View("shirt")).faults[0].message
+
+
+@pytest.mark.parametrize("size", ['width = "28 cm"', 'scale = "90 mm"'])
+def test_a_motif_is_looked_at_alone_as_large_as_it_is(size: str) -> None:
+    text = FLOWER.replace('width = "28 cm"', f'{size}\ngap = "9 mm"\nsymmetry = "p2"')
+    alone = Looker().look(Draft(text), View(motif="a"))
+    assert not alone.faults
+    _, _, width, height = map(float, ET.fromstring(alone.svg).attrib["viewBox"].split())
+    drawn = compile_recipe(read_recipe(FLOWER.replace('width = "28 cm"', size)))
+    left, low, right, high = shapely.total_bounds(np.concatenate([each.areas for each in drawn.layers]))
+    # The cloth round it is 6 % of its larger side on either side.
+    assert width == pytest.approx(1.12 * (right - left), rel=0.01)
+    assert height == pytest.approx(1.12 * (high - low), rel=0.01)
+    assert "no motif" in str(Looker().look(Draft(text), View(motif="b")).faults[0])
 
 
 def test_faults_have_their_keys_and_lines() -> None:

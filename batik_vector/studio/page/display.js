@@ -22,9 +22,14 @@ window.studio = (() => {
     .lines g[data-cloth] { display: none; }
     .off { display: none; }
     canvas { position: absolute; left: 0; top: 0; }
+    .alone { position: absolute; left: ${RULER + 14}px; bottom: 14px; width: 236px; padding: 8px; display: none; pointer-events: none;
+             background: var(--panel); border: 1px solid var(--rule); border-radius: 8px; box-shadow: 0 8px 28px rgb(10 14 24 / 22%);
+             color: var(--quiet); font: 12px system-ui, sans-serif; }
+    .alone.on { display: block; }
+    .alone svg { display: block; width: 100%; height: 236px; border-radius: 4px; margin-bottom: 6px; }
   `;
-  const token = { host: null, shown: 0 };
-  let shadow, stage, art = null, over, rulerX, rulerY;
+  const token = { host: null, shown: 0, alone: 0 };
+  let shadow, stage, aside, art = null, over, rulerX, rulerY;
   let size = [1, 1], centre = [0.5, 0.5], scale = 1, fitted = true, lines = false, hidden = new Set();
   let guides = [], pins = [], showGuides = false, showPins = true, pending = false, screenMm = MM;
 
@@ -33,7 +38,9 @@ window.studio = (() => {
     token.host = host;
     shadow = host.shadowRoot || host.attachShadow({ mode: "open" });
     shadow.innerHTML = `<style>${STYLE}</style><canvas class="x"></canvas><canvas class="y"></canvas>
-      <div class="stage" tabindex="0" role="img" aria-label="The pattern. Arrow keys move it, plus and minus zoom, 0 fits it."></div>`;
+      <div class="stage" tabindex="0" role="img" aria-label="The pattern. Arrow keys move it, plus and minus zoom, 0 fits it."></div>
+      <div class="alone" aria-hidden="true"></div>`;
+    aside = shadow.querySelector(".alone");
     stage = shadow.querySelector(".stage");
     [rulerX, rulerY] = shadow.querySelectorAll("canvas");
     over = document.createElementNS(NS, "svg");
@@ -53,6 +60,8 @@ window.studio = (() => {
   function show(text, head) {
     const parsed = new DOMParser().parseFromString(text, "image/svg+xml").documentElement;
     if (parsed.nodeName !== "svg") return;
+    if (head.part === "motif") return showAlone(parsed, head.name);
+    if (!head.sketch) hideAlone();
     for (const each of parsed.querySelectorAll("metadata, script, foreignObject")) each.remove();
     const made = document.importNode(parsed, true);
     const box = (made.getAttribute("viewBox") || "0 0 100 100").split(/[\s,]+/).map(Number);
@@ -76,6 +85,17 @@ window.studio = (() => {
     if (fresh || fitted) fit(); else draw();
     requestAnimationFrame(() => { token.shown++; token.at = performance.now(); token.first ??= token.at; });
   }
+
+  // The motif whose slider moves, by itself: it is there while the whole is still being drawn.
+  function showAlone(svg, name) {
+    for (const each of svg.querySelectorAll("metadata, script, foreignObject")) each.remove();
+    const made = document.importNode(svg, true);
+    for (const each of ["width", "height"]) made.removeAttribute(each);
+    aside.replaceChildren(made, Object.assign(document.createElement("span"), { textContent: `${name}, alone` }));
+    aside.classList.add("on");
+    requestAnimationFrame(() => { token.alone++; token.aloneAt = performance.now(); });
+  }
+  function hideAlone() { aside.classList.remove("on"); }
 
   function verdict(words, good) {
     say("said-verdict", words);

@@ -183,6 +183,15 @@ class Display:
         if self._wanted != (draft, view, self.session.saves):
             self._wanted = draft, view, self.session.saves
             background_tasks.create(self._ask(draft, view))
+            if rough and (motif := self.session.motif_held):
+                background_tasks.create(self._ask_alone(draft, motif))
+
+    async def _ask_alone(self, draft: Draft, motif: str) -> None:
+        """Show the motif whose slider moves by itself: it is there before the pattern is."""
+        lane = f"{self.client.id}\0motif"
+        picture = await self.session.images.ask(draft, View(motif=motif), lane=lane)
+        if picture is not None and picture.svg and self.session.held and not self.client.is_deleted:
+            self.live.put({"name": motif}, picture.svg, "motif")
 
     async def _ask(self, draft: Draft, view: View) -> None:
         if not self.busy.visible:
@@ -253,6 +262,8 @@ class Display:
         if not sketch:
             # How long a sketch took says nothing of what it stands for.
             self._slow = picture.seconds > FOLLOWS
+            if self._slow:
+                background_tasks.create(self.session.images.warm_detail())
         facts = picture.facts
         width, height = facts["cell_mm"]
         # Told by the picture's own way, for the page's elements would keep the browser busy.
@@ -262,7 +273,7 @@ class Display:
             "seconds": f"{'sketched' if sketch else 'drawn'} in {picture.seconds * 1000:.0f} ms",
         }
         certified = picture.draft is self._certified
-        head = {"guides": self._guides(facts), "words": words, "certified": certified}
+        head = {"guides": self._guides(facts), "words": words, "certified": certified, "sketch": sketch}
         self.live.put(head, picture.svg)
         self._list_layers(facts)
         if self._verdict is not None:

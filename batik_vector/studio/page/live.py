@@ -34,20 +34,29 @@ class Live:
 
     def __init__(self, slid: Slid) -> None:
         self._slid = slid
-        self._frame = b""
+        self._frames: dict[str, bytes] = {}
+        self._due: dict[str, None] = {}
         self._fresh = asyncio.Event()
         self._shown = asyncio.Event()
 
-    def put(self, head: Mapping[str, Any], svg: bytes) -> None:
-        """Send a picture as soon as the browser takes one; one that still waits is dropped."""
-        told = json.dumps(head).encode()
-        self._frame = len(told).to_bytes(4, "big") + told + svg
+    def put(self, head: Mapping[str, Any], svg: bytes, part: str = "") -> None:
+        """Send a picture as soon as the browser takes one; one of the same part that still waits is dropped.
+
+        Args:
+            head: what is known of it.
+            svg: the picture.
+            part: "motif" for that of a motif alone, nothing for the whole.
+        """
+        told = json.dumps({**head, "part": part}).encode()
+        self._frames[part] = len(told).to_bytes(4, "big") + told + svg
+        self._due[part] = None
         self._fresh.set()
 
     async def serve(self, socket: WebSocket) -> None:
         """Serve a browser until it goes; what it missed is sent at once."""
         await socket.accept()
-        if self._frame:
+        if "" in self._frames:
+            self._due[""] = None
             self._fresh.set()
         self._shown.set()
         sending = asyncio.create_task(self._send(socket))
@@ -63,9 +72,12 @@ class Live:
             await self._fresh.wait()
             with contextlib.suppress(TimeoutError):
                 await asyncio.wait_for(self._shown.wait(), PATIENCE)
-            self._fresh.clear()
             self._shown.clear()
-            await socket.send_bytes(self._frame)
+            part = next(iter(self._due))
+            del self._due[part]
+            if not self._due:
+                self._fresh.clear()
+            await socket.send_bytes(self._frames[part])
 
     def _hear(self, words: str) -> None:
         try:

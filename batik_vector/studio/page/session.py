@@ -57,6 +57,8 @@ class Session:
         self._compiling: tuple[Draft, tuple[Fault, ...]] | None = None
         self.saves = 0
         """How often a file was saved that is followed."""
+        self.motif_held = ""
+        """The motif whose slider was moved last, or nothing where it was not a motif's."""
         self.held = False
         """Whether a slider is in somebody's hand, and another value is about to come."""
         self._listeners: list[Callable[[], None]] = []
@@ -170,6 +172,8 @@ class Session:
             BatikError: where it cannot be set; nothing is changed then.
         """
         self.held = not let_go
+        where = parsed(path)
+        self.motif_held = str(where[1]) if where[0] == "motif" and len(where) > 1 else ""
         before = self.draft
         self.set_value(path, value, merge=path)
         if let_go:
