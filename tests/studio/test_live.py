@@ -68,6 +68,29 @@ def test_of_pictures_that_wait_for_a_browser_the_newest_is_sent() -> None:
     asyncio.run(run())
 
 
+def test_a_motif_alone_does_not_take_the_place_of_the_pattern() -> None:
+    async def run() -> list[tuple[str, bytes]]:
+        live, socket = Live(lambda *_: None), Socket()
+        serving = asyncio.create_task(live.serve(socket))  # type: ignore[arg-type]
+        await rest()
+        for part, svg in (("motif", b"1"), ("motif", b"2"), ("", b"whole"), ("motif", b"3"), ("", b"newer")):
+            live.put({}, svg, part)
+            await rest()
+        for _ in range(3):
+            socket.says.put_nowait('"shown"')
+            await rest()
+        socket.says.put_nowait(None)
+        await serving
+        # Who comes back is shown the pattern; what was held in a hand then is past.
+        again = Socket()
+        serving = asyncio.create_task(live.serve(again))  # type: ignore[arg-type]
+        again.says.put_nowait(None)
+        await serving
+        return [(head["part"], svg) for head, svg in socket.seen]
+
+    assert asyncio.run(run()) == [("motif", b"1"), ("motif", b"3"), ("", b"newer")]
+
+
 def test_what_is_no_value_of_a_slider_is_passed_over() -> None:
     async def run() -> list[tuple[int, float, bool]]:
         told: list[tuple[int, float, bool]] = []
@@ -82,6 +105,14 @@ def test_what_is_no_value_of_a_slider_is_passed_over() -> None:
         return told
 
     assert asyncio.run(run()) == [(7, 0.5, False), (7, 2, True)]
+
+
+@pytest.mark.parametrize(
+    ("value", "words"), [(10_000_000, "1e7"), (1_234_567, "1234567"), (12, "12"), (0.02, "0.02")]
+)
+def test_a_number_is_shown_by_its_figures(value: float, words: str) -> None:
+    assert shown(value) == words
+    assert float(words) == value
 
 
 @pytest.mark.parametrize(

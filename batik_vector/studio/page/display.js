@@ -96,6 +96,8 @@ window.studio = (() => {
     requestAnimationFrame(() => { token.alone++; token.aloneAt = performance.now(); });
   }
   function hideAlone() { aside.classList.remove("on"); }
+  // What a hand has let go of need not be seen alone any more, even where no picture follows.
+  function letGo() { setTimeout(hideAlone, 2500); }
 
   function verdict(words, good) {
     say("said-verdict", words);
@@ -303,7 +305,7 @@ window.studio = (() => {
   for (const name of ["focusin", "keydown", "keyup"]) document.addEventListener(name, nameSlider);
 
   return {
-    mount, show, verdict, fit, actual, zoom: (factor) => zoom(factor), choose, state: token,
+    mount, show, letGo, verdict, fit, actual, zoom: (factor) => zoom(factor), choose, state: token,
     lines: (on) => { lines = on; applyLayers(); },
     layer: (id, on) => { on ? hidden.delete(id) : hidden.add(id); applyLayers(); },
     guides: (on) => { showGuides = on; draw(); },

@@ -84,6 +84,7 @@ class Display:
         self._stem = ""
         self._turned = False
         self._certified: Draft | None = None
+        self._exact: Draft | None = None
         self._on = {"lines": False, "guides": False, "pins": True}
         self._inks: tuple[tuple[str, str], ...] = ()
         self._hidden: set[str] = set()
@@ -190,7 +191,10 @@ class Display:
         """Show the motif whose slider moves by itself: it is there before the pattern is."""
         lane = f"{self.client.id}\0motif"
         picture = await self.session.images.ask(draft, View(motif=motif), lane=lane)
-        if picture is not None and picture.svg and self.session.held and not self.client.is_deleted:
+        if picture is None or not picture.svg or self.client.is_deleted:
+            return
+        # What is drawn exactly by now need not be seen in part.
+        if self._exact is not draft:
             self.live.put({"name": motif}, picture.svg, "motif")
 
     async def _ask(self, draft: Draft, view: View) -> None:
@@ -260,6 +264,7 @@ class Display:
             return
         sketch = picture.view.rough
         if not sketch:
+            self._exact = picture.draft
             # How long a sketch took says nothing of what it stands for.
             self._slow = picture.seconds > FOLLOWS
             if self._slow:

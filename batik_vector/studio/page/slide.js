@@ -27,6 +27,7 @@ export default {
     done(value) {
       this.held = false;
       studioLive.slide(this.number(), value, true);
+      studio.letGo();
     },
   },
 };
