@@ -262,6 +262,8 @@ class Display:
         self._tell_faults(picture.faults)
         if not picture.svg:
             return
+        # What comes after it is waited for from now on.
+        self._since = time.monotonic()
         sketch = picture.view.rough
         if not sketch:
             self._exact = picture.draft
