@@ -12,7 +12,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from batik_vector.drafting.ink_names import ink_names
-from batik_vector.errors import BatikError, RecipeError
+from batik_vector.errors import BatikError, Fault, RecipeError
 from batik_vector.recipe.drawing import Svg
 from batik_vector.studio.changes import pasted
 from batik_vector.studio.drafts import Draft
@@ -86,8 +86,8 @@ def with_motif(draft: Draft, stem: str, data: bytes) -> Draft:
             value.pop("ink", None)
         made = coloured.inserted(offer.path, value)
     if faults := made.faults:
-        # What was wrong before is not the drawing's fault.
-        fresh = [each for each in faults if each not in draft.faults]
+        # What was wrong before is not the drawing's fault; and who dropped it knows of no line of the recipe.
+        fresh = [Fault(each.message) for each in faults if each not in draft.faults]
         if fresh:
             raise RecipeError(fresh)
     return made

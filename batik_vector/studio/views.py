@@ -8,6 +8,7 @@ another process do it.
 from __future__ import annotations
 
 import functools
+import re
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import field, replace
@@ -27,10 +28,10 @@ from batik_vector.studio.asking import SCREEN
 from batik_vector.studio.asking import View as View
 from batik_vector.studio.drafts import Draft
 from batik_vector.studio.draping import FORMS, SHOWN, draped, flat, too_fine
-from batik_vector.studio.lines import as_lines
 from batik_vector.studio.motif_alone import alone, cropped
 from batik_vector.tiling.cloth.field import field_page
 from batik_vector.tiling.tossing.falls import Falls
+from batik_vector.units import format_mm
 from batik_vector.values import frozen
 
 METRE = 1000.0
@@ -46,6 +47,10 @@ LARGE_SHARE = 0.6
 """What effort takes in large recipes, of what it takes in the small one: measured on the samples."""
 MOST_SHOWN = 1_500_000
 """Vertices of a picture that a browser still moves."""
+
+_GROUND = re.compile(r"<polygon [^>]*/>")
+_FILLED = re.compile(r'fill="(#[0-9a-f]{6})" fill-rule="[a-z]+"')
+_STROKED = re.compile(r'fill="none" stroke="(#[0-9a-f]{6})" stroke-width="[0-9.]+"')
 
 
 @frozen(eq=False)
@@ -150,6 +155,19 @@ class Looker:
                 "fewer repeats"
             )
         return svg_text(page, SHOWN), (page.cell.width, page.cell.height)
+
+
+def as_lines(svg: str, width: float) -> str:
+    """Return a picture as its outlines alone, thin, on bare ground.
+
+    Args:
+        svg: as our SVG writer writes it.
+        width: of the lines, in mm.
+    """
+    breadth = format_mm(max(width, 0.01))
+    svg = _GROUND.sub("", svg, count=1)
+    drawn = rf'fill="none" stroke="\1" stroke-width="{breadth}"'
+    return _FILLED.sub(drawn, _STROKED.sub(drawn, svg))
 
 
 def foreseen(draft: Draft, view: View) -> tuple[int, float]:

@@ -1,5 +1,8 @@
 from __future__ import annotations
 
+import pytest
+
+from batik_vector.errors import RecipeError
 from batik_vector.studio.asking import View
 from batik_vector.studio.drafts import Draft
 from batik_vector.studio.drops import MOTIF_NOW, taken_in
@@ -32,3 +35,8 @@ def test_a_drawing_of_one_colour_takes_the_ink_of_its_placement() -> None:
     draft = dropped("#cc3333", "#cc3333")
     assert draft.tables["motif"]["my-bird"] == {"kind": "svg", "file": "my-bird.svg"}
     assert list(draft.tables["ink"]) == ["wax"]
+
+
+def test_a_drawing_that_cannot_be_read_is_told_in_its_own_words() -> None:
+    with pytest.raises(RecipeError, match=r"^broken.svg:1: is no well-formed XML"):
+        taken_in(Draft(FLOWER), "broken.svg", b'<svg><path d="M0 0')
