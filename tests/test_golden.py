@@ -52,12 +52,15 @@ def test_what_the_library_knows_of_a_starter_is_up_to_date(name: str, path: Path
 
 
 def test_every_sample_stands_on_its_page_in_turn() -> None:
-    for page in (golden.GALLERY, golden.FIGURES):
+    seen = []
+    for page in (golden.GALLERY, golden.DRAWINGS, golden.FIGURES):
         text = (golden.SAMPLES / page).read_text(encoding="utf-8")
         shown = re.findall(r"^!\[.*\]\((.*)\.png\)$", text, re.MULTILINE)
-        figures = page == golden.FIGURES
-        wanted = [each for each in golden.samples() if (golden.section(each) == "figure") == figures]
-        assert shown == [each.stem for each in wanted]
+        order = [each.stem for each in golden.samples() if each.stem in shown]
+        assert shown == order
+        assert (page == golden.FIGURES) == any(each.startswith("figure-") for each in shown)
+        seen += shown
+    assert sorted(seen) == sorted(each.stem for each in golden.samples())
     assert list(included.known()) == [name for name, _ in included.paths()]
 
 

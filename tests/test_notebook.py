@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -17,7 +18,8 @@ ROOT = Path(__file__).resolve().parent.parent
 def test_a_recipe_shows_its_tile() -> None:
     recipe = load_recipe(ROOT / "samples" / "kawung.toml")
     assert recipe._repr_svg_() == compile_recipe(recipe)._repr_svg_()
-    assert load_recipe(ROOT / "samples" / "border-p11m.toml")._repr_svg_() is None
+    borders = load_recipe(ROOT / "samples" / "border-p11m.toml")
+    assert replace(borders, tile=None, place=())._repr_svg_() is None
 
 
 def test_without_ipywidgets_the_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -145,7 +145,7 @@ def test_the_sample_has_its_picture_and_stands_on_its_page(name: str) -> None:
     assert (FOLDER / f"{name}.png").stat().st_size > 2000
     pages = [path.name for path in FOLDER.glob("*.md") if f"({name}.png)" in path.read_text(encoding="utf-8")]
     assert len(pages) == 1
-    assert (pages == ["FIGURES.md"]) == name.startswith("figure-")
+    assert (pages == ["FIGURES.md"]) == name.startswith(("figure-", "fractal-"))
 
 
 @pytest.mark.parametrize("name", SAMPLES)

@@ -37,7 +37,7 @@ from tools.starters_sheet import SHEET, sheet
 
 SAMPLES = Path(__file__).resolve().parents[1] / "samples"
 GALLERY, FIGURES, DRAWINGS = "README.md", "FIGURES.md", "DRAWINGS.md"
-"""Pages of designs, of the paper's figures and of machines' ways: the last two prove, they do not please."""
+"""Pages of designs, of figures and of machines' ways: the last two prove, they do not please."""
 WIDTH, HEIGHT = 900, 720
 """Pixels of a picture at most."""
 SHAPE = 3 / 2
@@ -68,7 +68,7 @@ class Sample:
     @property
     def stands_on(self) -> str:
         """Return the page that shows it: a picture of a tool's ways is no cloth."""
-        if section(self.path) == "figure":
+        if section(self.path) in PROOFS:
             return FIGURES
         ways = (each.travel for each in self.recipe.output if isinstance(each, PngOutput))
         return DRAWINGS if any(ways) else GALLERY
@@ -128,13 +128,15 @@ SECTIONS = {
     "ground": "Grounds that flow behind motifs",
     "toss": "Tossed",
     "lsystem": "Grown by L-systems",
-    "fractal": "Fractals, automata and other generators",
     "group": "The seventeen wallpaper groups",
     "border": "Borders and cloths: the seven friezes",
     "machine": "For machines: a recipe and all its files",
     "figure": "The paper's figures",
+    "fractal": "Fractals, automata and other generators",
 }
 """What the first word of a sample's name says of it, in the order of the gallery."""
+PROOFS = ("figure", "fractal")
+"""Sections of figures: they show mathematics, and no buyer is asked to judge them as cloth."""
 
 
 def section(path: Path) -> str:
@@ -191,8 +193,8 @@ def gallery(found: list[Sample]) -> str:
     """Return the page that shows the designs."""
     parts = [
         "# Samples\n\nEach picture shows several repeats of the tile. `make golden` draws them and writes "
-        f"this page.\nThe figures of the paper, redrawn, have [a page of their own]({FIGURES}), and so have "
-        f"[working drawings]({DRAWINGS}), which show the ways of a tool."
+        f"this page.\nThe figures of the paper and of fractals have [a page of their own]({FIGURES}), "
+        f"and so have [working drawings]({DRAWINGS}), which show the ways of a tool."
     ]
     for word, title in SECTIONS.items():
         mine = [each for each in found if section(each.path) == word and each.stands_on == GALLERY]
@@ -201,13 +203,16 @@ def gallery(found: list[Sample]) -> str:
 
 
 def figures(found: list[Sample]) -> str:
-    """Return the page of the paper's figures."""
-    head = (
-        f"# {SECTIONS['figure']}\n\nThe figures of Tian et al. 2019 as recipes, one repeat each, to hold the "
-        f"mathematics against.\n[The designs]({GALLERY}) are made of the same curves."
-    )
-    mine = [each.caption() for each in found if each.stands_on == FIGURES]
-    return "\n\n".join([head, *mine]) + "\n"
+    """Return the page of the figures."""
+    parts = [
+        "# Figures\n\nWhat shows the mathematics and is not meant for cloth: the figures of Tian et al. "
+        "2019, one repeat\neach, and what fractals, automata and grammars draw. "
+        f"[The designs]({GALLERY}) are made of the same curves."
+    ]
+    for word in PROOFS:
+        mine = [each.caption() for each in found if section(each.path) == word]
+        parts += [f"## {SECTIONS[word]}", *mine]
+    return "\n\n".join(parts) + "\n"
 
 
 def drawings(found: list[Sample]) -> str:
@@ -270,8 +275,7 @@ def pages(found: list[Sample]) -> dict[Path, str]:
 
 def entries(each: Sample) -> dict[Path, str]:
     """Return what one sample gives to the texts that are written from all."""
-    page = FIGURES if section(each.path) == "figure" else GALLERY
-    told = {SAMPLES / page: each.caption(), travel.PAGE: travel.row(each.path.stem, each.page)}
+    told = {SAMPLES / each.stands_on: each.caption(), travel.PAGE: travel.row(each.path.stem, each.page)}
     if each.path.suffix == ".toml":
         told[included.MEASURED] = included_line(f"sample/{each.path.stem}", each.path, each.page)
     return told
