@@ -34,8 +34,11 @@ unlike, or meet too often, for cells to be of use."""
 SPARE = 1 << 16
 """So many more of each are nothing."""
 
-WIDEST = 1 << 31
-"""Steps: all lies within less."""
+LONGEST, WIDEST = 1 << 24, 1 << 30
+"""Steps: no edge is longer, and all lies within less, some 16 m and 1 km."""
+
+BLOCK = 1 << 17
+"""Pairs that are looked at in one go: as many as a processor holds beside it."""
 
 
 @frozen(eq=False)
@@ -75,21 +78,24 @@ class Cells:
     def of(cls, places: Places) -> Cells | None:
         """Sort edges into cells; None where they are too unlike, or lie too far apart."""
         n = len(places)
-        wide, tall = np.abs(places.dx), np.abs(places.dy)
-        left, low = np.minimum(places.x, places.x + places.dx), np.minimum(places.y, places.y + places.dy)
-        left -= left.min() - ROOM
-        low -= low.min() - ROOM
-        far, up = int((left + wide).max()) + ROOM, int((low + tall).max()) + ROOM
-        if max(far, up) >= WIDEST:
+        far, up = (int(np.ptp(each)) + 2 * LONGEST for each in (places.x, places.y))
+        dx, dy = places.dx.astype(np.int32), places.dy.astype(np.int32)
+        wide, tall = np.abs(dx), np.abs(dy)
+        if max(far, up) >= WIDEST or max(int(wide.max()), int(tall.max())) > LONGEST:
             return None
-        mean = int(np.maximum(wide, tall).sum()) // n + 2 * ROOM
+        left, low = ((each - each.min()).astype(np.int32) for each in (places.x, places.y))
+        left += np.minimum(dx, 0) + np.int32(LONGEST)
+        low += np.minimum(dy, 0) + np.int32(LONGEST)
+        left -= left.min()
+        low -= low.min()
+        right, high = left + wide + np.int32(2 * ROOM), low + tall + np.int32(2 * ROOM)
+        far, up = int(right.max()), int(high.max())
+        mean = int(np.maximum(wide, tall).sum(dtype=np.int64)) // n + 2 * ROOM
         bits = int(BREADTH * mean).bit_length()
         while ((far >> bits) + 1) * ((up >> bits) + 1) > CELLS * n + SPARE:
             bits += 1
         columns = (far >> bits) + 1
         count = columns * ((up >> bits) + 1)
-        left, low = (left - ROOM).astype(np.int32), (low - ROOM).astype(np.int32)
-        right, high = left + (wide + 2 * ROOM).astype(np.int32), low + (tall + 2 * ROOM).astype(np.int32)
         first_column, first_row = left >> bits, low >> bits
         across, up_ = (right >> bits) - first_column + 1, (high >> bits) - first_row + 1
         counts = across * up_
@@ -154,24 +160,43 @@ class Cells:
         total = int(counts.sum())
         if total > PAIRS * len(self.owner) + SPARE:
             return None
-        one = np.repeat(np.arange(len(counts), dtype=np.int32), counts)
+        bounds = tuple(each[self.edge] for each in (self.left, self.right, self.low, self.high))
+        found = [np.empty((2, 0), np.int32)]
+        totals = np.cumsum(counts)
+        stops = np.searchsorted(totals, np.arange(BLOCK, total + BLOCK, BLOCK), side="right")
+        start = 0
+        for stop in stops.tolist():
+            # One entry with more pairs than a block holds is a block by itself.
+            stop = min(max(stop, start + 1), len(counts))
+            found.append(self._of_block(start, first[start:stop], counts[start:stop], bounds, once=once))
+            start = stop
+            if start == len(counts):
+                break
+        e, f = np.concatenate(found, axis=1)
+        return e.astype(np.intp), f.astype(np.intp)
+
+    def _of_block(
+        self, start: int, first: Index, counts: Index, bounds: tuple[Small, ...], *, once: bool
+    ) -> NDArray[np.int32]:
+        """Do the work of :meth:`_met` for some entries from ``start`` on; ``bounds`` are those of each."""
+        left, right, low, high = bounds
+        total = int(counts.sum())
+        one = np.repeat(np.arange(start, start + len(counts), dtype=np.int32), counts)
         other = np.arange(total, dtype=np.int32)
         other += np.repeat((first - np.cumsum(counts) + counts).astype(np.int32), counts)
         if not once:
             apart = np.flatnonzero(np.abs(self.edge[one] - self.edge[other]) > 1)
             one, other = one[apart], other[apart]
         # Entries of one cell lie side by side, and are read sooner than what they are of.
-        for lower, upper in ((self.left, self.right), (self.low, self.high)):
-            begin, end = lower[self.edge], upper[self.edge]
+        for begin, end in ((left, right), (low, high)):
             met = np.flatnonzero((begin[one] <= end[other]) & (begin[other] <= end[one]))
             one, other = one[met], other[met]
-        e, f, cell = self.edge[one], self.edge[other], self.cell[one]
         if once:
-            column = np.maximum(self.left[e], self.left[f]) >> self.bits
-            row = np.maximum(self.low[e], self.low[f]) >> self.bits
-            here = np.flatnonzero(row * np.int32(self.columns) + column == cell)
-            e, f = e[here], f[here]
-        return e.astype(np.intp), f.astype(np.intp)
+            column = np.maximum(left[one], left[other]) >> self.bits
+            row = np.maximum(low[one], low[other]) >> self.bits
+            here = np.flatnonzero(row * np.int32(self.columns) + column == self.cell[one])
+            one, other = one[here], other[here]
+        return np.stack([self.edge[one], self.edge[other]])
 
 
 def _ends(breaks: Mask) -> Index:

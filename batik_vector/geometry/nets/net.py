@@ -110,10 +110,13 @@ def united(
 def _untangled(now: _Work, pairs: Index, unite: Unite) -> _Work | None:
     """Unite entangled copies, and work out again what is bare about them; None where there are too many."""
     copies, count = now.copies, len(now.copies)
+    # What is entangled with itself is so by what it meets.
+    alone = np.isin(copies.own, pairs[pairs[:, 0] == pairs[:, 1], 0])
+    pairs = np.concatenate([pairs, np.column_stack([copies.own[alone], copies.other[alone]])])
     label = components(count, pairs)
     gone = np.bincount(label, minlength=count)[label] > 1
     members = np.flatnonzero(gone)
-    if len(members) * MOST > count:
+    if not len(members) or len(members) * MOST > count:
         return None
     groups = [members[label[members] == each] for each in np.unique(label[members])]
     bodies = [_placed(copies, group) for group in groups]
