@@ -198,9 +198,7 @@ def _check_prepared(
     if not kept:
         notes[-1] += ": the tile that it was made of was measured"
     elif asked is not None and (free := [each.kind for each in specs if not each.keeps_group]):
-        notes.append(
-            f"{' and '.join(free)} leave nothing twice alike: {asked.name} is not asked of it any more"
-        )
+        notes.append(f"{asked.name} is not kept by {' and '.join(free)}, and is not asked of it any more")
         asked = None
     certificate = _certified(source, reading.artwork if kept else tile, wishes, asked)
     found = _drawing_found(source, reading, certificate, promise, notes)

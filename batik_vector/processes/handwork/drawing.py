@@ -23,6 +23,7 @@ from batik_vector.machines import Machine
 from batik_vector.processes.bodies import repeated_into
 from batik_vector.processes.handwork.corners import cornered, densified
 from batik_vector.processes.handwork.options import HandProcess
+from batik_vector.processes.handwork.seams import BESIDE, clear_of_seams
 from batik_vector.processes.handwork.strokes import strokes
 from batik_vector.processes.handwork.tiles import tile_of, with_areas
 from batik_vector.processes.handwork.waver import Wave, Waver
@@ -67,9 +68,10 @@ def apply(page: Page, spec: HandProcess, machine: Machine) -> Artwork:
         marks = [_moved(areas, waver, step)]
         if spec.least is not None:
             marks.append(_spouts(to_polygons(areas), waver, step, spec.least * STEPS_PER_MM / 2, tile.cell))
+        marks = [clear_of_seams(each, tile.cell, step) for each in marks]
         lines = of_polylines(layer.lines, MM)
         if len(lines):
-            marks.append(strokes(lines, layer.ink.width, waver, spec, step))
+            marks.append(_strokes(lines, layer.ink.width, waver, spec, step))
         made.append(repeated_into(tile.cell, np.concatenate(marks)))
     arrangement = arranged(made, (0, 0, tile.cell.columns, tile.cell.rows))
     found = {
@@ -123,6 +125,15 @@ def _moved(areas: Outlines, waver: Waver, step: float) -> Geometries:
     """Return areas as a hand draws them, in steps."""
     fine = densified(areas, step)
     return to_polygons(replace(fine, points=waver.moved(fine.points)))
+
+
+def _strokes(lines: Outlines, width: float, waver: Waver, spec: HandProcess, step: float) -> Geometries:
+    """Return lines as a hand draws them, as broad as asked where they are drawn to the tile's edge, too."""
+    made = strokes(lines, width, waver, spec, step)
+    clear = clear_of_seams(made, waver.cell, step)
+    if clear is made:
+        return made
+    return clear_of_seams(strokes(lines, width, waver, spec, step, 2.0 * BESIDE), waver.cell, step)
 
 
 def _spouts(areas: Geometries, waver: Waver, step: float, radius: float, cell: Cell) -> Geometries:

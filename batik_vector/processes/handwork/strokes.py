@@ -25,7 +25,9 @@ LEFT = 0.5
 """The part of its breadth that a line keeps where nothing else is asked."""
 
 
-def strokes(lines: Outlines, width: float, waver: Waver, spec: HandProcess, step: float) -> Geometries:
+def strokes(
+    lines: Outlines, width: float, waver: Waver, spec: HandProcess, step: float, spare: float = 0.0
+) -> Geometries:
     """Return lines as areas.
 
     Args:
@@ -34,6 +36,7 @@ def strokes(lines: Outlines, width: float, waver: Waver, spec: HandProcess, step
         waver: how places are shifted.
         spec: how steady the hand is.
         step: how long an edge may be, in steps.
+        spare: steps by which they are broader than asked where they are narrowest.
     """
     points, offsets = lines.repeating()
     starts, ends = _free(points, offsets, waver.cell)
@@ -48,7 +51,7 @@ def strokes(lines: Outlines, width: float, waver: Waver, spec: HandProcess, step
         after, DRIES * broad
     )
     least = LEFT * width if spec.least is None else spec.least
-    radius = np.maximum(broad * (1 + spec.strength * swell), least * STEPS_PER_MM) / 2
+    radius = np.maximum(broad * (1 + spec.strength * swell), least * STEPS_PER_MM + spare) / 2
     moved = waver.moved(points)
     # What has come to lie on the point before it says nothing of the way.
     same = np.append(False, (moved[1:] == moved[:-1]).all(axis=1) & (line[1:] == line[:-1]))

@@ -52,6 +52,7 @@ class MisregisterProcess(ProcessSpec):
     kind = "misregister"
     module = "batik_vector.processes.printing.misregistering"
     of_tile = True
+    keeps_group = False
 
     by: Annotated[
         Annotated[Length, Between(0, 20)],

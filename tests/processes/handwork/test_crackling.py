@@ -176,7 +176,7 @@ def test_from_a_recipe_to_a_file_that_passes(tmp_path: Path) -> None:
     checked = runner().invoke(cli, ["check", str(tmp_path / "out" / "kites.svg")])
     assert checked.exit_code == 0, checked.output
     told = checked.stdout + checked.stderr
-    assert "hand and crackle leave nothing twice alike: p4g is not asked of it any more" in told
+    assert "p4g is not kept by hand and crackle, and is not asked of it any more" in told
 
 
 NUMBERS = range(0, 6000, 6)

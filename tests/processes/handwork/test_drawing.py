@@ -155,6 +155,14 @@ def test_a_cloth_is_no_tile() -> None:
         drawn(Artwork(page.title, page.cell, page.layers, page.cloth, bleed=3.0))
 
 
+@pytest.mark.parametrize("number", [549, 411])
+def test_nothing_runs_a_hair_beside_the_seam_nor_bends_on_it(number: int) -> None:
+    """A corner of the one came to lie on the tile's edge, and an outline of the other ran 2 µm beside it."""
+    page = random_tile(number)
+    done = drawn(page, strength=number % 5 / 4, seed=number, reach=(4.0, 9.0, 20.0)[number % 3])
+    assert certify(done).faults == ()
+
+
 NUMBERS = range(3, 6003, 6)
 
 

@@ -243,6 +243,15 @@ def test_ink_out_of_register_bares_what_a_trap_covers() -> None:
     assert off(two_inks(0.3), shifts={"dark": (0.3, 0.1)}).facts["misregister"]["bare_mm2"] == 0
 
 
+def test_what_is_out_of_register_is_not_asked_for_its_group(recipe: Path) -> None:
+    recipe.write_text(RECIPE.replace("[tile]", '[tile]\nrepeat = "pmm"'))
+    code, _, _ = call(recipe, "-f", "svg", "--process", "misregister by=0.4mm")
+    assert code == 0
+    checked = runner().invoke(cli, ["check", str(recipe.parent / "out" / "p.svg")])
+    assert "pmm is not kept by misregister, and is not asked of it any more" in checked.output
+    assert checked.exit_code == 0, checked.output
+
+
 def test_seeds_give_directions_and_the_first_ink_stays() -> None:
     vectors = [off(two_inks(), by=0.4, seed=seed).facts["misregister"]["shifts_mm"] for seed in (0, 0, 1)]
     assert vectors[0] == vectors[1] != vectors[2]
