@@ -10,6 +10,7 @@ from batik_vector.errors import GeometryError, TooLargeError
 from batik_vector.geometry import work
 from batik_vector.geometry.curves import Circle, Hypocycloid, Rose, Spiral, Star, Superellipse, trace
 from batik_vector.geometry.regions import FillRule, settle
+from batik_vector.recipe import figures as drawing
 from batik_vector.recipe.figures import draw
 from batik_vector.recipe.motif import (
     Core,
@@ -138,6 +139,29 @@ def test_many_contours_are_put_together_in_few_overlays() -> None:
         areas = draw(rings, TOLERANCE)[0].areas
     assert done.calls() == 6
     assert len(areas) == 32
+
+
+def test_contours_of_many_crossings_are_settled_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Those of a comb beside the origin cross, and make the same bands as overlays two by two."""
+    xy = [(1, -1), *((1 + k // 2 * 0.1, 1 - k % 2 * 1.9) for k in range(2, 34)), (3, -1)]
+    comb = PathMotif(d="M" + "L".join(f"{x:.3f} {y:.3f}" for x, y in xy) + "Z", centre=(0, 0), contours=8)
+
+    def bands() -> shapely.Geometry:
+        cold()
+        return shapely.union_all(draw(comb, TOLERANCE)[0].areas)
+
+    monkeypatch.setattr(drawing, "MANY_CROSSINGS", 100)
+    with counted([(shapely, "symmetric_difference")]) as done:
+        at_once = bands()
+    assert not done.calls()
+    monkeypatch.setattr(drawing, "MANY_CROSSINGS", np.inf)
+    two_by_two = bands()
+    assert two_by_two.area > 1
+    assert shapely.symmetric_difference(at_once, two_by_two).area < 1e-6 * two_by_two.area
+    monkeypatch.setattr(drawing, "MANY_CROSSINGS", 100)
+    monkeypatch.setattr(work, "LIMIT", 50_000)
+    with work.account(), pytest.raises(TooLargeError, match=r"contours = 8\).*cross about"):
+        bands()
 
 
 def test_contours_that_will_cross_too_often_are_refused_before_they_are_overlaid(
