@@ -22,7 +22,7 @@ from batik_vector.command.installed_plugins import broken, plugins_command
 from batik_vector.command.library import library_command
 from batik_vector.command.made_files import called
 from batik_vector.command.manual import exit_codes_told, man_command
-from batik_vector.command.options import Finite, json_option, set_option
+from batik_vector.command.options import Finite, files_begun, json_option, machines_begun, set_option
 from batik_vector.command.palettes import colourways_command, palettes_command
 from batik_vector.command.stopping import EXITS, end_on_sigterm, listen
 from batik_vector.command.studio import studio_command
@@ -63,6 +63,21 @@ def _interrupted(number: int) -> None:
 
 class _Commands(click.Group):
     """The commands, with every way they may end told in words and an exit code."""
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """Find the command that is meant; of a file or a starter in its place, what goes before it."""
+        try:
+            return super().resolve_command(ctx, args)
+        except click.UsageError as error:
+            if args[0] in KINDS:
+                hint = f"A recipe of that kind: batik-vector new {args[0]}"
+            elif os.path.isfile(args[0]) or args[0].endswith(".toml"):
+                hint = f"To make files of a recipe: batik-vector compile {args[0]}"
+            else:
+                raise
+            raise click.UsageError(f"{error.message} {hint}", ctx) from error
 
     def invoke(self, ctx: click.Context) -> Any:
         try:
@@ -113,7 +128,7 @@ def _limit(name: str, metavar: str, says: str, option: str = "") -> Callable[[An
 
 
 @cli.command("check", short_help="Certify tiles: seams, doubles, symmetry.")
-@click.argument("sources", nargs=-1, required=True, metavar="RECIPE|SVG…")
+@click.argument("sources", nargs=-1, required=True, metavar="RECIPE|SVG…", shell_complete=files_begun)
 @set_option
 @click.option("--repeat", metavar="WORDS", help="How a drawing without a recipe repeats.  [default: grid]")
 @click.option("--group", metavar="NAME", help="The wallpaper group it ought to have, such as p4m.")
@@ -133,7 +148,12 @@ def _limit(name: str, metavar: str, says: str, option: str = "") -> Callable[[An
 @_limit("striping", "%", "Unevenness of columns or rows that is a fault; without it none is.")
 @click.option("--lenient", is_flag=True, help="Let pass what cannot be measured, such as blended colours.")
 @click.option("--pointers", metavar="DIR", help="Write NAME-check.svg with a mark at each fault.")
-@click.option("--machine", metavar="NAME", help="Hold them to a machine: a profile's name, or FILE.toml.")
+@click.option(
+    "--machine",
+    metavar="NAME",
+    shell_complete=machines_begun,
+    help="Hold them to a machine: a profile's name, or FILE.toml.",
+)
 @json_option
 def check_command(
     sources: Sequence[str],
@@ -187,7 +207,7 @@ def _tell_facts(facts: dict[str, Any], aside: bool) -> None:
 
 
 @cli.command("analyse", short_help="Measure patterns: petals, symmetry, dimension.")
-@click.argument("sources", nargs=-1, required=True, metavar="RECIPE|SVG…")
+@click.argument("sources", nargs=-1, required=True, metavar="RECIPE|SVG…", shell_complete=files_begun)
 @set_option
 @json_option
 def analyse_command(sources: Sequence[str], overrides: Sequence[str], as_json: bool) -> None:
@@ -227,7 +247,14 @@ def _kind_name(_ctx: click.Context, _param: click.Parameter, name: str | None) -
     metavar="KIND",
     help=f"What it begins as: {', '.join(KINDS)}.  [default: NAME where it is one, or {DEFAULT_KIND}]",
 )
-@click.option("-o", "path", metavar="FILE", help="The file to write.  [default: NAME.toml]")
+@click.option(
+    "-o",
+    "--output",
+    "path",
+    metavar="FILE",
+    shell_complete=files_begun,
+    help="The file to write.  [default: NAME.toml]",
+)
 @click.option("--force", is_flag=True, help="Replace a file that is there.")
 @click.option("--list", "as_list", is_flag=True, help="Say what kinds there are, each in a line.")
 def new_command(name: str | None, kind: str | None, path: str | None, force: bool, as_list: bool) -> None:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from batik_vector.command.library_options import as_json_option, file_option, report_of
-from batik_vector.command.options import workers_of
+from batik_vector.command.options import files_begun, folders_begun, workers_of
 from batik_vector.command.telling import collecting, counted, faults_told, reported
 from batik_vector.errors import ExportError, LibraryError, unknown_name
 from batik_vector.values import frozen
@@ -27,7 +27,7 @@ FORMATS = ("toml", "svg", "pdf", "dxf", "gcode", "png", "zip")
 
 
 @click.command("add", short_help="Save recipes.")
-@click.argument("paths", nargs=-1, required=True, metavar="RECIPE|FOLDER|ZIP…")
+@click.argument("paths", nargs=-1, required=True, metavar="RECIPE|FOLDER|ZIP…", shell_complete=files_begun)
 @click.option("--name", metavar="NAME", help="What it is called.  [default: as its file]")
 @click.option("--tag", "tags", multiple=True, metavar="TAG", help="That it gets; may be given again.")
 @click.option("--note", default="", metavar="TEXT", help="A note on it.")
@@ -160,9 +160,18 @@ def _measured(
 @click.argument("names", nargs=-1, metavar="NAME[@N]…")
 @click.option("--all", "everything", is_flag=True, help="All patterns of your own.")
 @click.option("--tag", "tags", multiple=True, metavar="TAG", help="All that have it.")
-@click.option("-o", "folder", default=".", metavar="DIR|FILE.zip", help="Where files go.  [default: .]")
+@click.option(
+    "-o",
+    "--output",
+    "folder",
+    default=".",
+    metavar="DIR|FILE.zip",
+    shell_complete=folders_begun,
+    help="Where files go.  [default: .]",
+)
 @click.option(
     "-f",
+    "--format",
     "formats",
     default="",
     metavar="FORMAT,…",

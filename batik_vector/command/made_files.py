@@ -8,7 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from batik_vector.command.options import Finite, all_formats, format_names, formats_begun
+from batik_vector.command.options import (
+    Finite,
+    all_formats,
+    folders_begun,
+    format_names,
+    formats_begun,
+    machines_begun,
+)
 
 if TYPE_CHECKING:
     from batik_vector.errors import BatikError
@@ -27,10 +34,17 @@ class _Formats(click.Option):
 
 _OPTIONS = (
     click.option(
-        "-o", "folder", default=".", metavar="DIR", help="Where files go; made if missing.  [default: .]"
+        "-o",
+        "--output",
+        "folder",
+        default=".",
+        metavar="DIR",
+        shell_complete=folders_begun,
+        help="Where files go; made if missing.  [default: .]",
     ),
     click.option(
         "-f",
+        "--format",
         "formats",
         cls=_Formats,
         multiple=True,
@@ -45,7 +59,12 @@ _OPTIONS = (
         metavar="WORDS",
         help='What a machine needs done first, as in "cut kerf=0.15mm"; several are done in turn.',
     ),
-    click.option("--machine", metavar="NAME", help="The machine it is for: a profile's name, or FILE.toml."),
+    click.option(
+        "--machine",
+        metavar="NAME",
+        shell_complete=machines_begun,
+        help="The machine it is for: a profile's name, or FILE.toml.",
+    ),
     click.option("--dpi", type=Finite(min=1), metavar="N", help="Pixels per inch of cloth, of PNG and TIFF."),
     click.option(
         "--pages",

@@ -5,11 +5,14 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from batik_vector.errors import unknown_name
+
+if TYPE_CHECKING:
+    from click.shell_completion import CompletionItem
 
 
 class Finite(click.FloatRange):
@@ -49,6 +52,30 @@ def formats_begun(_ctx: click.Context, _param: click.Parameter, text: str) -> li
     return [f"{before}{comma}{name}" for name in all_formats() if name.startswith(begun.lower())]
 
 
+def files_begun(_ctx: click.Context, _param: click.Parameter, text: str) -> list[CompletionItem]:
+    """Return what tells a shell to offer files, as it does for other programs."""
+    from click.shell_completion import CompletionItem
+
+    return [CompletionItem(text, type="file")]
+
+
+def folders_begun(_ctx: click.Context, _param: click.Parameter, text: str) -> list[CompletionItem]:
+    """Return what tells a shell to offer folders."""
+    from click.shell_completion import CompletionItem
+
+    return [CompletionItem(text, type="dir")]
+
+
+def machines_begun(ctx: click.Context, param: click.Parameter, text: str) -> list[CompletionItem]:
+    """Return what shells offer for a machine: the profiles that come along, else files."""
+    from click.shell_completion import CompletionItem
+
+    from batik_vector.machines.shipped import MACHINES
+
+    known = [CompletionItem(name) for name in MACHINES if name.startswith(text)]
+    return known or files_begun(ctx, param, text)
+
+
 def listed(text: str) -> list[str]:
     """Return names that commas part."""
     return [name.strip() for name in text.split(",") if name.strip()]
@@ -64,7 +91,9 @@ def workers_of(_ctx: click.Context, _param: click.Parameter, number: int) -> int
         return os.cpu_count() or 1
 
 
-recipes_argument = click.argument("recipes", nargs=-1, required=True, metavar="RECIPE…")
+recipes_argument = click.argument(
+    "recipes", nargs=-1, required=True, metavar="RECIPE…", shell_complete=files_begun
+)
 set_option = click.option(
     "--set",
     "overrides",

@@ -6,7 +6,7 @@ from typing import Any
 
 import click
 
-from batik_vector.command.options import json_option, listed, set_option
+from batik_vector.command.options import files_begun, folders_begun, json_option, listed, set_option
 from batik_vector.command.telling import collecting, sheet_told
 from batik_vector.command.worksheets import SHEET_FORMATS
 
@@ -49,7 +49,7 @@ def palettes_command(as_json: bool) -> None:
 
 
 @click.command("colourways", short_help="Draw a recipe in its colourways on one page.")
-@click.argument("recipe", metavar="RECIPE")
+@click.argument("recipe", metavar="RECIPE", shell_complete=files_begun)
 @click.option(
     "--colourway",
     "names",
@@ -57,7 +57,15 @@ def palettes_command(as_json: bool) -> None:
     metavar="NAME,…|all",
     help="Colourways of the recipe, or palettes.  [default: all of the recipe]",
 )
-@click.option("-o", "folder", default="out", metavar="DIR", help="Where it goes.  [default: out]")
+@click.option(
+    "-o",
+    "--output",
+    "folder",
+    default="out",
+    metavar="DIR",
+    shell_complete=folders_begun,
+    help="Where it goes.  [default: out]",
+)
 @click.option(
     "-f",
     "--format",

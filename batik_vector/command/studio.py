@@ -6,6 +6,7 @@ import os
 
 import click
 
+from batik_vector.command.options import files_begun
 from batik_vector.command.telling import collecting
 
 PORT = 8642
@@ -13,7 +14,7 @@ PORT = 8642
 
 
 @click.command("studio", short_help="Design by looking, in the browser.")
-@click.argument("recipe", required=False, metavar="[RECIPE]")
+@click.argument("recipe", required=False, metavar="[RECIPE]", shell_complete=files_begun)
 @click.option(
     "--port",
     type=click.IntRange(0, 65535),

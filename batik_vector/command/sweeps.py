@@ -7,7 +7,16 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from batik_vector.command.options import Finite, format_names, jobs_option, json_option, listed, set_option
+from batik_vector.command.options import (
+    Finite,
+    files_begun,
+    folders_begun,
+    format_names,
+    jobs_option,
+    json_option,
+    listed,
+    set_option,
+)
 from batik_vector.command.telling import collecting, complain, counted, reported
 from batik_vector.errors import unknown_name
 from batik_vector.values import frozen
@@ -78,9 +87,17 @@ def _shared(folder: str) -> Callable[[Command], Command]:
     sheet_formats = f"{', '.join(SHEET_FORMATS)}.  [default: svg,pdf]"
     options = [
         set_option,
-        click.option("-o", "folder", metavar="DIR", help=f"Where files go.  [default: {folder}]"),
+        click.option(
+            "-o",
+            "--output",
+            "folder",
+            metavar="DIR",
+            shell_complete=folders_begun,
+            help=f"Where files go.  [default: {folder}]",
+        ),
         click.option(
             "-f",
+            "--format",
             "formats",
             multiple=True,
             callback=format_names,
@@ -116,7 +133,7 @@ def _shared(folder: str) -> Callable[[Command], Command]:
 
 
 @click.command("sweep", short_help="Make many variants of a recipe, with a contact sheet.")
-@click.argument("recipe", metavar="RECIPE")
+@click.argument("recipe", metavar="RECIPE", shell_complete=files_begun)
 @click.option(
     "--vary",
     multiple=True,
@@ -186,7 +203,7 @@ def sweep_command(
 
 
 @click.command("random", short_help="Make random variations of a recipe that hold on cloth.")
-@click.argument("recipe", metavar="RECIPE")
+@click.argument("recipe", metavar="RECIPE", shell_complete=files_begun)
 @click.option("-n", "count", type=click.IntRange(1, 10_000), default=24, metavar="N", help="[default: 24]")
 @click.option(
     "--seed", type=click.IntRange(0), default=0, metavar="N", help="Which variations.  [default: 0]"

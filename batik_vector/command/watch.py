@@ -8,12 +8,12 @@ from typing import Any
 import click
 
 from batik_vector.command.made_files import STDOUT, called, files_options, tell_files
-from batik_vector.command.options import set_option
+from batik_vector.command.options import files_begun, set_option
 from batik_vector.command.telling import collecting, faults_told
 
 
 @click.command("watch", short_help="Compile again on every save.")
-@click.argument("recipe")
+@click.argument("recipe", shell_complete=files_begun)
 @files_options
 @set_option
 @click.option("--page", is_flag=True, help="Show it in the studio's page, too.")

@@ -6,7 +6,7 @@ from typing import Any
 
 import click
 
-from batik_vector.command.options import json_option, set_option
+from batik_vector.command.options import files_begun, folders_begun, json_option, set_option
 from batik_vector.command.telling import collecting, sheet_told
 
 SHEET_FORMATS = ("svg", "pdf", "png")
@@ -14,8 +14,16 @@ SHEET_FORMATS = ("svg", "pdf", "png")
 
 
 @click.command("worksheet", short_help="Draw the steps of waxing and dyeing for the workshop.")
-@click.argument("recipe", metavar="RECIPE")
-@click.option("-o", "folder", default="out", metavar="DIR", help="Where it goes.  [default: out]")
+@click.argument("recipe", metavar="RECIPE", shell_complete=files_begun)
+@click.option(
+    "-o",
+    "--output",
+    "folder",
+    default="out",
+    metavar="DIR",
+    shell_complete=folders_begun,
+    help="Where it goes.  [default: out]",
+)
 @click.option(
     "-f",
     "--format",

@@ -14,6 +14,7 @@ from click.testing import Result
 
 from batik_vector.command.cli import KINDS, cli
 from batik_vector.command.manual import EXIT_CODES, manual
+from batik_vector.machines.shipped import MACHINES
 from batik_vector.making.destinations import nowhere
 from tests.calling import runner
 
@@ -201,6 +202,8 @@ def test_shells_complete_commands_and_options(shell: str) -> None:
         (("compile", "-f"), "h", ["hpgl"]),
         (("compile", "-f"), "svg,p", ["svg,pdf", "svg,png"]),
         (("new", "--kind"), "ka", ["kawung"]),
+        (("compile", "--machine"), "vi", ["vinyl-cutter"]),
+        (("check", "--machine"), "wax", ["wax-pen"]),
     ],
 )
 def test_values_are_completed(words: tuple[str, ...], last: str, found: list[str]) -> None:
@@ -208,7 +211,34 @@ def test_values_are_completed(words: tuple[str, ...], last: str, found: list[str
 
     offered = ShellComplete(cli, {}, "batik-vector", "_X").get_completions(list(words), last)
     assert [each.value for each in offered] == found
-    assert set(found) <= {*KINDS, "hpgl", "svg,pdf", "svg,png"}
+    assert set(found) <= {*KINDS, *MACHINES, "hpgl", "svg,pdf", "svg,png"}
+
+
+def test_files_and_folders_are_completed() -> None:
+    from click.shell_completion import ShellComplete
+
+    shell = ShellComplete(cli, {}, "batik-vector", "_X")
+    for path, command in commands():
+        for param in command.params:
+            words = param.metavar or ""
+            if isinstance(param, click.Argument) and any(each in words for each in ("RECIPE", ".svg")):
+                (offered,) = shell.get_completions(list(path), "mi")
+                assert (offered.value, offered.type) == ("mi", "file"), path
+            elif "-o" in param.opts:
+                (offered,) = shell.get_completions([*path, "--output"], "ou")
+                assert offered.type == ("dir" if "DIR" in words else "file"), path
+
+
+@pytest.mark.parametrize(
+    ("word", "hint"),
+    [("mine.toml", "batik-vector compile mine.toml"), ("kawung", "batik-vector new kawung"), ("compil", "")],
+)
+def test_what_is_no_command_is_told_what_to_write(word: str, hint: str) -> None:
+    done = runner().invoke(cli, [word])
+    assert done.exit_code == 2
+    assert f"No such command '{word}'" in done.stderr
+    assert hint in done.stderr
+    assert ("batik-vector compile" in done.stderr) == (word == "mine.toml")
 
 
 def test_nothing_is_coloured() -> None:
