@@ -21,6 +21,7 @@ EVERY = "*"
 INK_KEYS = ("ink", "line_ink")
 PLACES = ("place", "corner_place")
 """Keys of a border that hold placements."""
+_NUMBERS = frozenset({bool, int, float, type(None)})
 _BARE = frozenset("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-")
 
 
@@ -73,7 +74,7 @@ def ink_names(node: Any, path: Path = ()) -> Iterator[tuple[Path, str]]:
         if isinstance(value, str):
             if key in INK_KEYS and value:
                 yield (*path, key), value
-        else:
+        elif type(value) not in _NUMBERS:
             yield from ink_names(value, (*path, key))
 
 

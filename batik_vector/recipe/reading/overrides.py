@@ -83,12 +83,13 @@ def overridden(
     Raises:
         RecipeError: for each path that leads nowhere.
     """
-    changed = copy.deepcopy(data)
+    changed = dict(data)
     faults, meant = [], []
     for override in overrides:
         try:
             each = [replace(override, path=path) for path in full_paths(changed, override.path)]
             for one in each:
+                _unshare(changed, one.path)
                 _put(changed, one, {})
             meant += each
         except _Astray as astray:
@@ -96,6 +97,19 @@ def overridden(
     if faults:
         raise RecipeError(faults)
     return _rewritten(text, changed, meant), changed, meant
+
+
+def _unshare(node: Any, path: Path) -> None:
+    """Copy what a path leads through: all else stays the given tables' own, and nobody writes into it."""
+    for part in path[:-1]:
+        if isinstance(node, dict) and str(part) in node:
+            key: Any = str(part)
+        elif isinstance(node, list) and str(part).isdecimal() and int(part) < len(node):
+            key = int(part)
+        else:
+            return
+        node[key] = copy.copy(node[key])
+        node = node[key]
 
 
 def meant_by(data: dict[str, Any], keys: Sequence[str], asked: str) -> list[list[Path]]:
@@ -226,14 +240,30 @@ def _inner(node: Any, at: Path) -> Iterator[tuple[Path, dict[str, Any]]]:
         yield from _inner(member, (*at, name))
 
 
+TRIED = 16
+"""Texts remembered with the places at which values were exchanged, and the whole read back as it was meant:
+after that it is enough that each value there reads back."""
+
+_tried: dict[tuple[str, tuple[Path, ...]], None] = {}
+
+
 def _rewritten(text: str, changed: dict[str, Any], overrides: Sequence[Override]) -> str:
     """Return the text with its comments where that can be done, else the tables alone."""
     import tomlkit
 
+    where = text, tuple(each.path for each in overrides)
     for rewrite in (_in_place, _in_document):
         try:
             written = rewrite(text, overrides)
-            if written is not None and tomllib.loads(written) == changed:
+            if written is None:
+                continue
+            if rewrite is _in_place and where in _tried and all(map(_reads_back, overrides)):
+                return written
+            if tomllib.loads(written) == changed:
+                if rewrite is _in_place:
+                    _tried[where] = None
+                    while len(_tried) > TRIED:
+                        _tried.pop(next(iter(_tried)), None)
                 return written
         except (ValueError, TypeError, LookupError, AttributeError, tomlkit.exceptions.TOMLKitError):
             pass
@@ -257,6 +287,12 @@ def _in_place(text: str, overrides: Sequence[Override]) -> str | None:
             return None
         text, begun = text[:start] + literal + text[end:], start
     return text
+
+
+def _reads_back(override: Override) -> bool:
+    import tomlkit
+
+    return bool(tomllib.loads(f"v = {tomlkit.item(override.value).as_string()}") == {"v": override.value})
 
 
 def _in_document(text: str, overrides: Sequence[Override]) -> str:

@@ -292,8 +292,13 @@ class Stock:
 
 def _meeting_bounds(a: Steps, b: Steps) -> tuple[Index, Index]:
     """Return the pairs of bounds, one of each, that have a point in common."""
-    (ax, ay, ar, at), (bx, by, br, bt) = a.T[:, :, None], b.T[:, None]
-    mine, other = np.nonzero((ax <= br) & (bx <= ar) & (ay <= bt) & (by <= at))
+    # Column by column, each in one piece: NumPy is several times as fast along them.
+    (ax, ay, ar, at), (bx, by, br, bt) = (np.ascontiguousarray(each.T) for each in (a, b))
+    met = ax[:, None] <= br
+    for mine, other in ((ar, bx), (at, by)):
+        met &= mine[:, None] >= other
+    met &= ay[:, None] <= bt
+    mine, other = np.divmod(np.flatnonzero(met), len(b))
     return mine, other
 
 

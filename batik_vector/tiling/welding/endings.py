@@ -52,6 +52,8 @@ def lone_ends(lines: Geometries, cell: Cell) -> Places:
 
     Lines that lie on one another, as the images of one beside a mirror may, count as one.
     """
+    if not len(lines):
+        return set()
     coords, owner = shapely.get_coordinates(lines, return_index=True)
     inside = owner[1:] == owner[:-1]
     begin, end = coords[:-1][inside], coords[1:][inside]
