@@ -109,15 +109,18 @@ class Ifs:
         ``STRETCH_PATHS`` copies, the steepest so far are followed at each level.
         """
         at, factor = points[None, :, :], np.ones((1, len(points)))
-        for _ in range(self.level if levels is None else levels):
-            found, factors = [], []
-            for each in self.maps:
-                flat = at.reshape(-1, 2)
-                steep = each.stretch(flat).reshape(factor.shape) * factor
-                for branch in range(each.branches):
-                    found.append(each.at(flat, branch).reshape(at.shape))
-                    factors.append(steep)
-            at, factor = np.concatenate(found), np.concatenate(factors)
+        for rest in reversed(range(self.level if levels is None else levels)):
+            flat = at.reshape(-1, 2)
+            steep = [each.stretch(flat).reshape(factor.shape) * factor for each in self.maps]
+            if not rest:
+                # Where the last images lie is nobody's business, and all branches stretch alike.
+                factor = np.concatenate(steep)
+                break
+            found = [image.reshape(at.shape) for each in self.maps for image in each.every(flat)]
+            at = np.concatenate(found)
+            factor = np.concatenate(
+                [each for each, flame in zip(steep, self.maps, strict=True) for _ in range(flame.branches)]
+            )
             if len(at) > STRETCH_PATHS:
                 order = np.argpartition(-factor, STRETCH_PATHS, axis=0)[:STRETCH_PATHS]
                 at = np.take_along_axis(at, order[:, :, None], axis=0)

@@ -68,7 +68,7 @@ BUDGETS = Budgets(
         "evaluations per vertex, wave": 50,
         "evaluations per vertex, fourier": 88,
         "evaluations per vertex, attractor": 115,
-        "evaluations per vertex, bent layout": 57,
+        "evaluations per vertex, bent layout": 23,
         # Placing ten thousand copies; then the images of a symmetry, of which the same are sorted out.
         "shapely calls for a placement": 63,
         "steps of our code for each image of a symmetry": 1.5,
@@ -78,7 +78,7 @@ BUDGETS = Budgets(
         "curves traced, cold": 12,
         "shapely calls, cold": 788,
         "shapely calls, a petal longer": 312,
-        "shapely calls, the same recipe again": 125,
+        "shapely calls, the same recipe again": 81,
         # What Python and NumPy hold at most, at 10^5 vertices.
         "bytes per vertex, compiling": 36,
         "bytes per vertex, compiling a net": 102,

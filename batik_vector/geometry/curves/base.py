@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from typing import Any, ClassVar, Literal
 
@@ -206,8 +207,8 @@ def points_at(curve: Curve, t: Array) -> Points:
         raise _fault(
             curve, f"at(t) returns shape {points.shape} for t of shape {t.shape}, expected ({len(t)}, 2)"
         )
-    finite = np.isfinite(points).all(axis=1)
-    if not finite.all():
+    # What is not finite makes no finite sum; NumPy takes ten times as long for each point.
+    if not math.isfinite(points.sum()) and not (finite := np.isfinite(points).all(axis=1)).all():
         raise _fault(curve, f"at(t) is not finite at t = {t[~finite][0]:g}: it runs through a pole")
     return points
 

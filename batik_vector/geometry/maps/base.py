@@ -56,6 +56,10 @@ class Variation:
         """
         raise NotImplementedError
 
+    def every(self, z: Complexes) -> list[Complexes]:
+        """Return V(z) on every branch, by principal angles: as :meth:`at` does, to the bit."""
+        return [self.at(z, None, branch) for branch in range(self.branches)]
+
     def wirtinger(self, z: Complexes, branch: int) -> tuple[Complexes, Complexes]:
         """Return (∂V/∂z, ∂V/∂z̄); |∂z| + |∂z̄| is the largest local stretch."""
         raise NotImplementedError

@@ -56,6 +56,15 @@ class FlameMap:
         image = self.post.at_complex(self.core(z, None, branch))
         return np.column_stack([image.real, image.imag])
 
+    def every(self, points: Points) -> list[Points]:
+        """Return the images of single points, shape (n, 2), on every branch."""
+        if len(self.terms) > 1:
+            return [self.at(points, branch) for branch in range(self.branches)]
+        ((weight, variation),) = self.terms
+        z = self.pre.at_complex(np.ascontiguousarray(points, np.float64).view(np.complex128)[:, 0])
+        images = [self.post.at_complex(_times(weight, part)) for part in variation.every(z)]
+        return [np.column_stack([image.real, image.imag]) for image in images]
+
     def stretch(self, points: Points) -> Array:
         """Return the largest magnification of lengths at each point, shape (n,), over all branches.
 
@@ -101,7 +110,7 @@ class FlameMap:
         total: Complexes | None = None
         for (weight, variation), digit in zip(self.terms, self.digits(branch), strict=True):
             part = variation.at(z, angle, digit)
-            part = part if weight == 1 else weight * part
+            part = _times(weight, part)
             total = part if total is None else total + part
         assert total is not None
         return total
@@ -120,3 +129,7 @@ class FlameMap:
     def poles(self) -> tuple[str, ...]:
         """The names of the terms that send their origin to infinity."""
         return tuple(variation.name for _, variation in self.terms if variation.pole)
+
+
+def _times(weight: float, part: Complexes) -> Complexes:
+    return part if weight == 1 else np.asarray(weight * part)

@@ -109,6 +109,11 @@ class JuliaN(Variation):
             image = np.where(square == 0, 0, image)
         return image if branch == 0 else np.asarray(image * self.spin(branch))
 
+    def every(self, z: Complexes) -> list[Complexes]:
+        """Return the image on every branch: the power is raised once."""
+        image = self.at(z, None, 0)
+        return [image, *(np.asarray(image * self.spin(branch)) for branch in range(1, self.branches))]
+
     def wirtinger(self, z: Complexes, branch: int) -> tuple[Complexes, Complexes]:
         """With w = r^q·e^(imθ): ((q + m)/2·w/z, (q − m)/2·w/z̄)."""
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):

@@ -10,7 +10,9 @@ from __future__ import annotations
 
 import dataclasses
 import enum
+import functools
 import math
+from collections.abc import Callable
 from typing import Any, TypeVar
 
 from batik_vector.errors import BatikError
@@ -72,26 +74,31 @@ def _table(hint: Hint, value: dict[str, Any]) -> Any:
     if hint.origin is dict and hint.item is not None:
         return {name: _table_again(hint.item, each) for name, each in value.items()}
     if isinstance(hint.base, type) and dataclasses.is_dataclass(hint.base):
-        return built(hint.base, value)
+        return _again(hint, value, functools.partial(built, hint.base))
     raise UnsureError
 
 
-KEPT_TABLES, KEPT_TEXT = 256, 20_000
+KEPT_TABLES, KEPT_TEXT = 512, 20_000
 """How many tables are remembered with the values that they became, and how long they may be, written out."""
 
 _known: dict[tuple[int, str], tuple[Hint, Any]] = {}
 
 
 def _table_again(hint: Hint, value: Any) -> Any:
-    """Return the value of one table among several. Kept: who turns one knob reads the other tables again."""
-    if type(value) is not dict:
-        return _value(hint, value)
+    """Return the value of one table among several."""
+    return (
+        _again(hint, value, functools.partial(_value, hint)) if type(value) is dict else _value(hint, value)
+    )
+
+
+def _again(hint: Hint, value: dict[str, Any], make: Callable[[dict[str, Any]], Any]) -> Any:
+    """Return what is made of a table. Kept: who turns one knob reads the other tables again."""
     # Written out 1, 1.0 and true are told apart, which are equal.
     key = id(hint), repr(value)
     found = _known.get(key)
     if found is None:
         # The hint is kept too, so that no other comes to have its number.
-        found = hint, _value(hint, value)
+        found = hint, make(value)
         if len(key[1]) <= KEPT_TEXT:
             _known[key] = found
             while len(_known) > KEPT_TABLES:

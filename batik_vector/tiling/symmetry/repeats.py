@@ -24,6 +24,9 @@ _NAMED = {
     "half-drop": (Fraction(1, 2), DropAxis.COLUMN),
     "brick": (Fraction(1, 2), DropAxis.ROW),
 }
+KEPT_ORBITS = 64
+"""How many orbits a repeat remembers."""
+
 MIRRORS = {"mirror": ("pmm", 2, 2), "mirror-x": ("pm", 2, 1), "mirror-y": ("p11m", 1, 2)}
 """Repeats that reflect the unit at its edges: the group, and the units across and up its rectangle."""
 
@@ -254,6 +257,21 @@ class TileSpec:
             UnknownNameError: for a group that is none.
             GeometryError: for one that the repeat does not admit.
         """
+        asked = symmetry, phase, spread
+        found = self._orbits.get(asked)
+        if found is None:
+            found = self._orbit(symmetry, phase, spread)
+            if len(self._orbits) >= KEPT_ORBITS:
+                self._orbits.clear()
+            self._orbits[asked] = found
+        return found
+
+    @functools.cached_property
+    def _orbits(self) -> dict[tuple[str, Shift, Spread | None], Orbit]:
+        """What was asked for before: a recipe asks for each as it is read, and as it is compiled."""
+        return {}
+
+    def _orbit(self, symmetry: str, phase: Shift, spread: Spread | None) -> Orbit:
         own = not symmetry and self._repeat.mirrored
         spread = spread or (Spread.CUT if own else Spread.FREE)
         chosen = group(symmetry) if symmetry else self._repeat.group or GROUPS["p1"]

@@ -73,18 +73,30 @@ class Memory:
         found: list[Any] = [each and each[0] for each in map(young.get, keys)]
         for number, each in enumerate(found) if old else ():
             if each is None and (entry := old.get(keys[number])) is not None:
-                self._keep(kind, keys[number], entry)
+                self._keep(kind, (keys[number],), (entry,))
                 found[number] = entry[0]
         return found
 
     def keep(self, kind: Hashable, key: Any, value: Any, size: int, held: Any = None) -> None:
         """Keep a value, which is not None, of about so many bytes; and hold what its key stands for."""
-        self._keep(kind, key, (value, size + PER_ENTRY, held))
+        self._keep(kind, (key,), ((value, size + PER_ENTRY, held),))
 
-    def _keep(self, kind: Hashable, key: Any, entry: Entry) -> None:
+    def keep_all(
+        self,
+        kind: Hashable,
+        keys: Sequence[Any],
+        values: Sequence[Any],
+        sizes: Sequence[int],
+        held: Any = None,
+    ) -> None:
+        """Keep several values, and hold what their keys stand for together."""
+        entries = [(value, size + PER_ENTRY, held) for value, size in zip(values, sizes, strict=True)]
+        self._keep(kind, keys, entries)
+
+    def _keep(self, kind: Hashable, keys: Sequence[Any], entries: Sequence[Entry]) -> None:
         with self._lock:
-            self._young[kind][key] = entry
-            self._held += entry[1]
+            self._young[kind].update(zip(keys, entries, strict=True))
+            self._held += sum(entry[1] for entry in entries)
             if self._held > self.most / 2:
                 self._old, self._young, self._held = self._young, defaultdict(dict), 0
 
@@ -105,14 +117,14 @@ def interned(shapes: Geometries) -> Geometries:
     if not fresh:
         return shapes
     written = shapely.to_wkb(shapes[fresh]).tolist()
+    new: dict[bytes, shapely.Geometry] = {}
     for row, key, shape in zip(fresh, written, _memory.get("shape", written), strict=True):
         # Of several that are equal the first is kept, and found by those that follow.
-        kept = _memory.get("shape", (key,))[0] if shape is None else shape
-        if kept is None:
-            kept = found[row]
-            _memory.keep("shape", key, kept, 2 * len(key))
-            _memory.keep("object", id(kept), kept, 0)
-        found[row] = kept
+        found[row] = new.setdefault(key, found[row]) if shape is None else shape
+    if new:
+        fresh_shapes = list(new.values())
+        _memory.keep_all("shape", list(new), fresh_shapes, [2 * len(key) for key in new])
+        _memory.keep_all("object", list(map(id, fresh_shapes)), fresh_shapes, [0] * len(new))
     return as_array(found)
 
 
@@ -139,7 +151,7 @@ class Asked(Generic[Made]):
         shapes: Sequence[Geometries],
         ends: NDArray[np.int64] | None = None,
     ) -> None:
-        self._how, self._shapes = how, shapes
+        self._how, self._shapes, self._single = how, shapes, ends is None
         self._ends = list(range(len(rows) + 1)) if ends is None else ends.tolist()
         self.keeps = how is not None
         """Whether anything is known, and kept: not where ``how`` is None."""
@@ -160,12 +172,12 @@ class Asked(Generic[Made]):
             self.found[row] = each
         if not self.keeps:
             return
-        sizes = vertices or [0] * len(rows)
+        sizes = [PER_VERTEX * each for each in vertices or [0] * len(rows)]
         for first in range(0, len(rows), HELD):
-            some = rows[first : first + HELD]
-            held = self._of(some)
-            for row, size in zip(some, sizes[first : first + HELD], strict=True):
-                _memory.keep(self._how, self._keys[row], self.found[row], size * PER_VERTEX, held)
+            part = slice(first, first + HELD)
+            some = rows[part]
+            keys, values = [self._keys[row] for row in some], [self.found[row] for row in some]
+            _memory.keep_all(self._how, keys, values, sizes[part], self._of(some))
 
     @classmethod
     def together(cls, how: Hashable, rows: Identities, shapes: Sequence[Geometries]) -> Asked[Made]:
@@ -174,6 +186,8 @@ class Asked(Generic[Made]):
 
     def _of(self, rows: Sequence[int]) -> Geometries:
         """Return the shapes that some questions are about, in an array of their own."""
+        if self._single:
+            return np.concatenate([each[rows] for each in self._shapes])
         runs = [slice(self._ends[row], self._ends[row + 1]) for row in rows]
         return np.concatenate([each[run] for each in self._shapes for run in runs])
 

@@ -66,8 +66,17 @@ def to_step_grid(marks: Geometries) -> Geometries:
 
 
 def polygons_of(marks: Geometries, names: NDArray[np.intp]) -> tuple[Geometries, NDArray[np.intp]]:
-    """Return the polygons among the parts of geometries, with the names of those they come from."""
+    """Return the polygons among the parts of geometries, with the names of those they come from.
+
+    What is a polygon stays the same object.
+    """
+    plain = shapely.get_type_id(marks) == shapely.GeometryType.POLYGON
+    if plain.all():
+        there = ~shapely.is_empty(marks)
+        return marks[there], names[there]
     parts, owner = shapely.get_parts(marks, return_index=True)
+    own = plain[owner]
+    parts[own] = marks[owner[own]]
     deep = shapely.get_type_id(parts) >= shapely.GeometryType.MULTIPOINT
     if deep.any():
         inner, inner_owner = shapely.get_parts(parts[deep], return_index=True)

@@ -31,6 +31,9 @@ from batik_vector.values import frozen
 FEW_PAIRS = 250_000
 """Pairs of bounds that are compared one with the other: sooner done than a tree."""
 
+SHORT = 2**31
+"""Steps below which a coordinate is a number of 32 bits."""
+
 FEW_COPIES = 500
 """Copies that are looked up one by one; more are sooner made again."""
 
@@ -164,8 +167,15 @@ class Stock:
         """Take up valid polygons in grid steps, those that are alike as copies of one shape."""
         if not len(areas):
             return together([])
-        heads, number, corner = different(of_polygons(areas))
-        return self.add(areas[heads]).taken(number).moved(corner - corner[heads][number])
+        if not self.remembers:
+            heads, number, away = _told_apart(areas)
+        else:
+            areas = interned(areas)
+            known = Asked[ToldApart].together("told apart", identities(areas)[:, None], (areas,))
+            if known.fresh():
+                known.keep([0], [_told_apart(areas)], [2 * len(areas)])
+            ((heads, number, away),) = known.answers()
+        return self.add(areas[heads]).taken(number).moved(away)
 
     def copies(self, parts: Sequence[Repeated]) -> list[Copies]:
         """Take up areas that are copies already; an array of shapes that several share is taken up once."""
@@ -290,10 +300,24 @@ class Stock:
         return self.geometries(copies.taken(heads))[number]
 
 
+ToldApart: TypeAlias = tuple[Index, Index, Steps]
+"""Polygons that equal none before them, which of those each is, and by how much it lies elsewhere."""
+
+
+def _told_apart(areas: Geometries) -> ToldApart:
+    heads, number, corner = different(of_polygons(areas))
+    away = corner - corner[heads][number]
+    for each in (heads, number, away):
+        each.flags.writeable = False
+    return heads, number, away
+
+
 def _meeting_bounds(a: Steps, b: Steps) -> tuple[Index, Index]:
     """Return the pairs of bounds, one of each, that have a point in common."""
-    # Column by column, each in one piece: NumPy is several times as fast along them.
-    (ax, ay, ar, at), (bx, by, br, bt) = (np.ascontiguousarray(each.T) for each in (a, b))
+    # Column by column, each in one piece and of short numbers: NumPy is several times as fast along them.
+    short = max(np.abs(a).max(initial=0), np.abs(b).max(initial=0)) < SHORT
+    kind = np.int32 if short else np.int64
+    (ax, ay, ar, at), (bx, by, br, bt) = (np.ascontiguousarray(each.T, kind) for each in (a, b))
     met = ax[:, None] <= br
     for mine, other in ((ar, bx), (at, by)):
         met &= mine[:, None] >= other

@@ -36,6 +36,10 @@ MOST_NEIGHBOURS = 24
 """Ways to lie beside one another that are looked at before copies are taken to meet."""
 
 
+KEPT_SPREADS, KEPT_MAPS = 32, 2_000
+"""How many sets of copies are remembered, sorted, and how many copies they may be of."""
+
+
 class Landed(NamedTuple):
     """Copies on the grid, in any order: ``copy`` and ``mark`` as of :class:`Images`."""
 
@@ -134,6 +138,10 @@ class Spread:
         return _numbered(self.carriers.apply(marks), self.numbers, np.arange(len(marks)))
 
 
+_known: dict[tuple[Affines, bool], list[Spread]] = {}
+"""Who turns one knob seldom moves the copies. What hangs on their marks is not here."""
+
+
 def _numbered(geometries: Geometries, numbers: Indices, mark: Indices) -> Images:
     return Images(geometries, np.repeat(numbers, len(mark)), np.tile(mark, len(numbers)))
 
@@ -172,6 +180,28 @@ def spreads(maps: Affines, marks: Callable[[], Sequence[Geometries]] | None = No
     Returns:
         Every copy in one of them. Where most differ in size or shape, one that holds all as they are.
     """
+    if len(maps) > KEPT_MAPS:
+        return _spreads(maps, marks)
+    key = maps, marks is not None
+    found = _known.get(key)
+    if found is None:
+        asked = False
+
+        def looked_at() -> Sequence[Geometries]:
+            nonlocal asked
+            asked = True
+            return [] if marks is None else marks()
+
+        found = _spreads(maps, None if marks is None else looked_at)
+        if not asked:
+            _known[key] = found
+            while len(_known) > KEPT_SPREADS:
+                _known.pop(next(iter(_known)), None)
+    return found
+
+
+def _spreads(maps: Affines, marks: Callable[[], Sequence[Geometries]] | None) -> list[Spread]:
+    """Do the work of :func:`spreads`."""
     size = np.zeros(len(maps), np.intp) if maps.are_translates else alike(_gram(maps))[1]
     count = int(size.max()) + 1
     if len(maps) == 1 or 2 * count > len(maps):

@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import field
-from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -98,12 +97,10 @@ class Pile:
 
     def cutters(self, above: int = -1, extra: float = 0.0) -> Laid:
         """Return what sheets above a number cut away: their shapes, grown by gap and ``extra`` (mm)."""
-        parts = []
         numbers = [n for n in range(above + 1, len(self.sheets)) if self.sheets[n].gap is not None]
-        reach = {number: self.reach(number, extra) for number in numbers}
-        for radius in sorted(set(reach.values())):
-            mine = [number for number in numbers if reach[number] == radius]
-            parts.append(self.grown(self._cutting.taken(np.isin(self._cutting.sheet, mine)), radius))
+        reach = np.full(len(self.sheets), np.nan)
+        reach[numbers] = [self.reach(number, extra) for number in numbers]
+        parts = [self._grown(reach[self._cutting.sheet])]
         for number in numbers:
             sheet = self.sheets[number]
             if len(sheet.lines) and sheet.ink is not None and not len(sheet.cutter):
@@ -112,13 +109,24 @@ class Pile:
                 parts.append(Laid(copies, np.full(len(copies), number)))
         return joined(parts)
 
-    def grown(self, laid: Laid, radius: float) -> Laid:
-        """Return areas grown by a radius in mm, with round corners."""
-        if radius <= 0 or not len(laid.sheet):
-            return laid
-        grow = partial(grown_on_grid, reach=radius, corners=quad_segs(radius, self.tolerance))
-        down = self.stock.mapped(laid.copies, grow)
-        return Laid(down.copies, laid.sheet[down.each])
+    def _grown(self, reach: NDArray[np.float64]) -> Laid:
+        """Return what cuts, each grown by its reach in mm, with round corners; the least first.
+
+        Those whose reach is not a number are left out. What is grown comes to its places all at once.
+        """
+        whole = self._cutting.taken(reach <= 0)
+        shapes, rows, which = [_none()], [], []
+        for radius in np.unique(reach[reach > 0]).tolist():
+            mine = np.flatnonzero(reach == radius)
+            used, row = self.stock.used(self._cutting.copies.taken(mine))
+            rows.append(row + sum(map(len, shapes)))
+            shapes.append(grown_on_grid(used, radius, quad_segs(radius, self.tolerance)))
+            which.append(mine)
+        if not which:
+            return whole
+        laid = self._cutting.taken(np.concatenate(which))
+        down = self.stock.set_down(np.concatenate(shapes), np.concatenate(rows), laid.copies.shift)
+        return joined([whole, Laid(down.copies, laid.sheet[down.each])])
 
 
 def _taken_up(stock: Stock, parts: Sequence[Areas]) -> tuple[Copies, Index]:

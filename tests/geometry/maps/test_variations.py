@@ -11,6 +11,7 @@ import pytest
 import batik_vector.geometry.maps as catalogue
 from batik_vector.errors import GeometryError
 from batik_vector.geometry.maps import VARIATIONS, FlameMap, JuliaN, Variation
+from batik_vector.geometry.maps.affine import Affine
 
 rng = np.random.default_rng(5)
 POINTS = rng.uniform(-2, 2, (300, 2))
@@ -53,6 +54,18 @@ def test_julian_is_its_formula_on_every_branch(julian: JuliaN) -> None:
         np.testing.assert_allclose(
             image, np.column_stack([radius * np.cos(angle), radius * np.sin(angle)]), atol=1e-11
         )
+
+
+@pytest.mark.parametrize("julian", JULIANS, ids=str)
+@pytest.mark.parametrize("weights", [(1.0,), (0.7,), (1.0, 0.3)])
+def test_all_branches_together_are_each_of_them_to_the_bit(
+    julian: JuliaN, weights: tuple[float, ...]
+) -> None:
+    flame = FlameMap(tuple((weight, julian) for weight in weights), Affine.turn(20.0), Affine.scale(1.5))
+    found = flame.every(POINTS)
+    assert len(found) == flame.branches
+    for branch, image in enumerate(found):
+        assert image.tobytes() == flame.at(POINTS, branch).tobytes()
 
 
 def test_julian_as_printed() -> None:

@@ -95,7 +95,7 @@ def test_a_text_changed_in_place_is_the_text_that_its_document_would_be(data: st
     known = value_spans(text)
     paths = [path for path, _ in values(tomllib.loads(text)) if path in known]
     value = st.one_of(st.integers(-99, 10**6), st.floats(-1e6, 1e6), st.text(max_size=9), st.booleans())
-    path, new = data.draw(st.sampled_from(paths)), data.draw(value)
+    path, new, newer = data.draw(st.sampled_from(paths)), data.draw(value), data.draw(value)
     change = [Override(path, new, f"{dotted(path)}={new}")]
     written = overrides._in_place(text, change)
     assert written is not None
@@ -106,3 +106,17 @@ def test_a_text_changed_in_place_is_the_text_that_its_document_would_be(data: st
     start, end = known[path]
     assert written.startswith(text[:start])
     assert written.endswith(text[end:])
+    # Once a place has been read back, its next value is read back alone.
+    asked, tables, _ = overridden(text, tomllib.loads(text), [Override(path, newer, "")])
+    assert tomllib.loads(asked) == tables
+
+
+@pytest.mark.parametrize(
+    "key", ["place[1].layout.dist", "place.1.layout.dist", "petal.count", "seed", "tile.size"]
+)
+def test_the_tables_that_are_given_stay_as_they_are(key: str) -> None:
+    tables = tomllib.loads(TEXT)
+    _, other, _ = overridden(TEXT, tables, [parse_override(f"{key}=7")])
+    assert tables == tomllib.loads(TEXT) != other
+    # What is not changed is not copied either.
+    assert other["motif"]["small"] is tables["motif"]["small"]

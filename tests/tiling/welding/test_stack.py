@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import shapely
 
-from batik_vector.artwork import Artwork, Cell, Ink, Layer, Overlap
+from batik_vector.artwork import Artwork, Cell, Geometries, Ink, Layer, Overlap
 from batik_vector.compiling.compiler import compile_recipe, inspect
 from batik_vector.geometry.curves import Circle, Petal, Rose
 from batik_vector.recipe.model import InkSpec, Placement, Recipe
@@ -15,6 +15,7 @@ from batik_vector.tiling.layouts import Ring
 from batik_vector.tiling.symmetry.repeats import Cut, TileSpec
 from batik_vector.tiling.welding import sheets
 from batik_vector.tiling.welding.congruent import Stock
+from batik_vector.tiling.welding.growth import grown_on_grid
 from batik_vector.tiling.welding.sheets import Sheet
 from batik_vector.tiling.welding.stack import assemble
 from batik_vector.tiling.welding.wrapping import Torus
@@ -160,12 +161,11 @@ def test_a_gap_wider_than_the_repeat_grows_a_mark_no_farther_than_covers_all(
 ) -> None:
     reached = []
 
-    def watched(self: sheets.Pile, laid: sheets.Laid, radius: float) -> sheets.Laid:
-        reached.append(radius)
-        return grown(self, laid, radius)
+    def watched(shapes: Geometries, reach: float, corners: int) -> Geometries:
+        reached.append(reach)
+        return grown_on_grid(shapes, reach, corners)
 
-    grown = sheets.Pile.grown
-    monkeypatch.setattr(sheets.Pile, "grown", watched)
+    monkeypatch.setattr(sheets, "grown_on_grid", watched)
     motif = Rosette(
         elements=(Element(curve=Circle(9.0), name="under"), Element(curve=Circle(0.5), name="over", gap=gap))
     )
