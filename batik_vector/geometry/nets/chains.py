@@ -11,6 +11,9 @@ from batik_vector.geometry.nets.meetings import Vector, between, same_way
 from batik_vector.geometry.outlines import Index, Offsets, Steps
 from batik_vector.values import frozen
 
+SPLITS = 8
+"""How often a ring that goes through points twice is cut in two."""
+
 
 @frozen(eq=False)
 class Chains:
@@ -21,8 +24,10 @@ class Chains:
     ends: Offsets
 
 
-def chained(start: Steps, end: Steps, first: Steps, last: Steps, whole: Mask) -> Chains | None:
-    """Chain stretches to rings; None where it is not sure how they go on.
+def chained(start: Steps, end: Steps, first: Steps, last: Steps, whole: Mask) -> Chains | Index | None:
+    """Chain stretches to rings.
+
+    Return pairs of stretches where it is not sure how these go on, and None where some end nowhere.
 
     At a point where two end and two begin each goes on with the one that bounds the same area, as sharply to
     its left as can be: areas that touch there stay apart.
@@ -42,8 +47,9 @@ def chained(start: Steps, end: Steps, first: Steps, last: Steps, whole: Mask) ->
     key = begin_key[by_begin]
     begins, ends = open_[by_begin], open_[by_end]
     same = np.append(key[1:] == key[:-1], False)[: len(key)]
-    if (same[1:] & same[:-1]).any():
-        return None
+    crowded = np.flatnonzero(same[1:] & same[:-1])
+    if len(crowded):
+        return _beside(begins, np.concatenate([crowded, crowded + 1]))
     several = np.flatnonzero(same)
     if len(several):
         a, b = begins[several], begins[several + 1]
@@ -54,14 +60,33 @@ def chained(start: Steps, end: Steps, first: Steps, last: Steps, whole: Mask) ->
         right, swapped = between(out_a, out_b, back), between(out_b, out_a, back)
         agrees = np.where(right, between(out_b, out_a, other), between(out_a, out_b, other))
         clash = same_way(out_a, out_b) | same_way(back, other)
-        if (clash | ~agrees | ~(right | swapped)).any():
-            return None
+        clash |= ~agrees | ~(right | swapped)
+        if clash.any():
+            return _beside(begins, several[clash])
         begins[several], begins[several + 1] = np.where(right, a, b), np.where(right, b, a)
-    following[ends] = begins
-    chains = _cycles(following)
-    if len(several) and _twice(chains, key, several, begins):
-        return None
-    return chains
+    return _split(following, begins, ends, several)
+
+
+def _split(following: Index, begins: Index, ends: Index, several: Index) -> Chains | Index:
+    """Return rings none of which goes through a point twice: one that does is cut in two there."""
+    for _ in range(SPLITS):
+        following[ends] = begins
+        chains = _cycles(following)
+        ring = np.empty(len(chains.order), np.intp)
+        ring[chains.order] = np.repeat(np.arange(len(chains.ends) - 1), np.diff(chains.ends))
+        twice = several[ring[begins[several]] == ring[begins[several + 1]]]
+        if not len(twice):
+            return chains
+        # One cut may bring apart what goes through other points twice.
+        _, first = np.unique(ring[begins[twice]], return_index=True)
+        at = twice[first]
+        begins[at], begins[at + 1] = begins[at + 1], begins[at]
+    return _beside(begins, twice)
+
+
+def _beside(begins: Index, at: Index) -> Index:
+    """Return the pairs of stretches that begin at some places of the list and at the next."""
+    return np.column_stack([begins[at], begins[at + 1]])
 
 
 def _keys(start: Steps, end: Steps) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
@@ -73,13 +98,6 @@ def _keys(start: Steps, end: Steps) -> tuple[NDArray[np.int64], NDArray[np.int64
 
 def _minus(a: Steps, b: Steps) -> Vector:
     return a[:, 0] - b[:, 0], a[:, 1] - b[:, 1]
-
-
-def _twice(chains: Chains, key: NDArray[np.int64], several: Index, begins: Index) -> bool:
-    """Whether a ring goes through a point twice."""
-    ring = np.empty(len(chains.order), np.intp)
-    ring[chains.order] = np.repeat(np.arange(len(chains.ends) - 1), np.diff(chains.ends))
-    return bool((ring[begins[several]] == ring[begins[several + 1]]).any())
 
 
 def _cycles(following: Index) -> Chains:

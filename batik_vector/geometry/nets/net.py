@@ -47,7 +47,7 @@ class Net(NamedTuple):
 
 
 class _Tangle(NamedTuple):
-    """Pairs of copies whose stretches rounding brought over one another, shape (k, 2)."""
+    """Copies whose stretches lie over one another, or go on one knows not how: pairs, shape (k, 2)."""
 
     pairs: Index
 
@@ -197,8 +197,8 @@ def _set_down(now: _Work, which: Index) -> tuple[_Down, Chains] | _Tangle | None
     more = (stop > begin)[:, None]
     first = np.where(more, slim.points[np.minimum(begin + 1, len(slim.points) - 1)] + shift, end)
     chains = chained(start, end, first, last, slim.whole[row])
-    if chains is None:
-        return None
+    if not isinstance(chains, Chains):
+        return None if chains is None else _Tangle(owner[chains])
     row, owner, shift = row[chains.order], owner[chains.order], shift[chains.order]
     points, offsets = runs(slim.offsets, row)
     moved = slim.points[points]

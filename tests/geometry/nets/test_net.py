@@ -90,11 +90,7 @@ def test_marks_that_share_edges_corners_and_points_are_united_exactly(
 ) -> None:
     table = np.array(rows)
     marks, found = together(EXACT, table[:, 0], 2 * table[:, 1:])
-    if found is None:
-        # A ring that goes through a point twice is left to others.
-        corners = shapely.get_coordinates(shapely.boundary(shapely.union_all(marks)))
-        assert len(np.unique(corners, axis=0)) < len(corners)
-        return
+    assert found is not None
     same(np.concatenate([to_polygons(found.areas), marks[found.alone]]), marks)
     for area, first in zip(to_polygons(found.areas), found.first.tolist(), strict=True):
         inside = shapely.covers(area, marks)
