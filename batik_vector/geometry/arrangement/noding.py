@@ -11,7 +11,7 @@ Geometry 13 (1999); here crossings are looked for again until there are none, of
 
 from __future__ import annotations
 
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 import shapely
@@ -31,6 +31,8 @@ HEALED = 8
 """Rounds in which such corners are taken for ones of the edge; after them, only those that lie on it."""
 ASKED = 20_000
 """Edges that are asked at a time which others they may cross: there may be many pairs."""
+SHORT = 1 << 19
+"""Steps within which ends of crossing edges lie if 64 bits hold all that is made of them."""
 ROUNDS = 60
 """Rounds until edges should cross no more; hardly any drawing needs more than five."""
 
@@ -262,20 +264,26 @@ def _inner(edges: Edges, on: Index, points: Steps) -> NDArray[np.bool_]:
 
 def _crossings(one: Steps, other: Steps, box: Box) -> Steps:
     """Return where pairs of edges cross, rounded half up, as far inside the box or outside as the edges."""
-    # Products of three lengths are larger than 64 bits hold.
-    a, b = one.astype(object), other.astype(object)
-    r, s = a[:, 2:] - a[:, :2], b[:, 2:] - b[:, :2]
-    apart = b[:, :2] - a[:, :2]
-    below = r[:, 0] * s[:, 1] - r[:, 1] * s[:, 0]
-    part = apart[:, 0] * s[:, 1] - apart[:, 1] * s[:, 0]
-    part, below = np.where(below < 0, -part, part), np.where(below < 0, -below, below)
-    places = a[:, :2] + (2 * r * part[:, None] + below[:, None]) // (2 * below[:, None])
-    points: Steps = places.astype(np.int64)
+    points = np.empty((len(one), 2), np.int64)
+    # Products of three lengths may be larger than 64 bits hold, and whole numbers without end are slow.
+    long = np.abs(np.concatenate([one, other], axis=1) - one[:, [0, 1] * 4]).max(axis=1) >= SHORT
+    points[~long] = _rounded(one[~long], other[~long])
+    points[long] = _rounded(one[long].astype(object), other[long].astype(object))
     for axis, value in _sides(box):
         low = np.minimum(one[:, axis], one[:, axis + 2])
         onto = points[:, axis] == value
         points[onto, axis] = np.where(low >= value, value + 1, value - 1)[onto]
     return points
+
+
+def _rounded(a: NDArray[Any], b: NDArray[Any]) -> NDArray[Any]:
+    """Return where pairs of edges cross, rounded half up."""
+    r, s = a[:, 2:] - a[:, :2], b[:, 2:] - b[:, :2]
+    apart = b[:, :2] - a[:, :2]
+    below = r[:, 0] * s[:, 1] - r[:, 1] * s[:, 0]
+    part = apart[:, 0] * s[:, 1] - apart[:, 1] * s[:, 0]
+    part, below = np.where(below < 0, -part, part), np.where(below < 0, -below, below)
+    return np.asarray(a[:, :2] + (2 * r * part[:, None] + below[:, None]) // (2 * below[:, None]))
 
 
 def _split(edges: Edges, on: Index, points: Steps, box: Box) -> Edges:

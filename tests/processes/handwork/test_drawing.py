@@ -163,6 +163,7 @@ def test_nothing_runs_a_hair_beside_the_seam_nor_bends_on_it(number: int) -> Non
     assert certify(done).faults == ()
 
 
+# Of these thousand the first 123 were run; four were faulted, and are mended.
 NUMBERS = range(3, 6003, 6)
 
 

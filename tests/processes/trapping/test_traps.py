@@ -40,10 +40,13 @@ def test_traps_are_as_broad_as_asked_and_nowhere_else(seed: int, width: float, b
     done = trapped(tile, width=width, by=by, covered="accept")
     assert not violations(done)
     before, after = field(tile), field(done)
-    for fault in certify(done, symmetry=False).faults:
-        # Coarse curves turn by some degrees at each corner, beside the seam no longer as they did before.
-        assert fault.kind is Kind.TANGENT
-        assert fault.amount < 3
+    if faults := certify(done, symmetry=False).faults:
+        own = {(fault.ink, fault.where, fault.kind) for fault in certify(tile, symmetry=False).faults}
+        for fault in faults:
+            # Coarse curves turn by some degrees at each corner, beside the seam no longer as they did before:
+            # of the seeds 0 to 399, with two breadths each, 101 alone has it, by 1.9 degrees.
+            assert (fault.ink, fault.where, fault.kind) in own or fault.kind is Kind.TANGENT
+            assert (fault.ink, fault.where, fault.kind) in own or fault.amount < 2
     assert list(before) == list(after)
     drawn = [layer.ink.name for layer in tile.layers]
     order = [ink for ink in (LIGHTEST_FIRST if by == "lightness" else drawn) if ink in before]
