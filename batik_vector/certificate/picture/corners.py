@@ -128,6 +128,8 @@ def _corners(rings: Edges, rows: Indices) -> list[Floats]:
 
     It is the turn into the tangent of a curve, and not into its first chord, which may be degrees off.
     """
+    if not len(rows):
+        return []
     step = (rings.end - rings.begin).astype(np.float64)
     length = np.hypot(*step.T)
     begins = np.flatnonzero(np.r_[True, rings.owner[1:] != rings.owner[:-1]])

@@ -73,8 +73,9 @@ def test_ink_that_ends_along_the_edge_by_design_is_told(
     [
         # The page cuts a disc, and nothing comes back.
         ('<circle cy="30" r="9"/>', Kind.UNPAIRED, "covered at the left edge"),
-        # A half of one, large enough for a chord to look like a straight piece.
-        ('<path d="M0 10a20 20 0 0 1 0 40z"/>', Kind.UNPAIRED, "covered at the left edge"),
+        # A half of one, large enough for a chord to look like a straight piece; another ink is a line alone.
+        (f'<path d="M0 10a20 20 0 0 1 0 40z"/><path d="M20 5h9" stroke="{RED}"/>', Kind.UNPAIRED,
+         "covered at the left edge"),
         # A half that was cut before: curves that end at the page, aslant.
         ('<path d="M0 14A20 20 0 0 1 0 46z"/>', Kind.UNPAIRED, "covered at the left edge"),
         ('<path d="M0 10l9 12-9 9z"/>', Kind.UNPAIRED, "covered at the left edge"),
