@@ -12,7 +12,7 @@ import tempfile
 import time
 import zipfile
 from collections.abc import Callable, Mapping
-from dataclasses import field
+from dataclasses import field, replace
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +29,9 @@ FIRST_DAY = (1980, 1, 1, 0, 0, 0)
 MOST = 1 << 30
 """Bytes of all files together that are kept in memory: larger ones are the command's."""
 RECIPE = ".toml"
+PDF, FULL, TAPED = "pdf", "full", "taped"
+PAPERS = {"A4": ("210 mm", "297 mm"), "A3": ("297 mm", "420 mm"), "Letter": ("215.9 mm", "279.4 mm")}
+"""What people have printers for, breadth and height."""
 
 
 @frozen(eq=False)
@@ -89,6 +92,38 @@ def with_output(draft: Draft, format_: str, values: Mapping[str, Any]) -> Draft:
     return draft.with_values(
         {f"output[{place}].{key}": value for place in places for key, value in values.items()}
     )
+
+
+def on_paper(draft: Draft, wishes: Wishes, pages: str = "", inks: str = "") -> list[tuple[Draft, Wishes]]:
+    """Return what is exported where something is said of the PDF: that apart from all else.
+
+    Args:
+        draft, wishes: that are exported.
+        pages: "full A4", a sheet of that paper full of the pattern; "taped A4", a large design over
+            several; or nothing, a page as large as the design.
+        inks: "spot", for separations, or nothing.
+
+    Raises:
+        RecipeError: where the draft cannot be changed so.
+    """
+    how, _, paper = pages.partition(" ")
+    values: dict[str, Any] = {"inks": inks} if inks else {}
+    sheet = draft
+    if how == TAPED:
+        width, length = PAPERS[paper]
+        # Sheets overlap by more than printers leave white along both edges.
+        values |= {"pages": "tile", "page": f"{width.removesuffix(' mm')} x {length}", "overlap": "15 mm"}
+    elif how == FULL:
+        width, length = PAPERS[paper]
+        sheet = draft.with_value("yardage", {"width": width, "length": length})
+        values |= {"piece": "yardage"}
+    if PDF not in wishes.formats or not values:
+        return [(draft, replace(wishes, formats=wishes.formats or ("svg",)))]
+    rest = tuple(each for each in wishes.formats if each != PDF)
+    parts = [(with_output(sheet, PDF, values), replace(wishes, formats=(PDF,), recipe=False))]
+    if rest or wishes.recipe:
+        parts.append((draft, replace(wishes, formats=rest or ("svg",))))
+    return parts
 
 
 def _job(draft: Draft, wishes: Wishes, folder: Path) -> Job:

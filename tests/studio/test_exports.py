@@ -11,7 +11,7 @@ from batik_vector.export import FORMATS
 from batik_vector.making.jobs import planned, read_jobs, run_quietly
 from batik_vector.studio.asking import Wishes
 from batik_vector.studio.drafts import Draft
-from batik_vector.studio.exports import Exported, download, export, file_names, with_output, zipped
+from batik_vector.studio.exports import Exported, download, export, file_names, on_paper, with_output, zipped
 from batik_vector.studio.pictures import EXPORT, Pictures
 from tests.studio.test_drafts import FLOWER
 
@@ -64,6 +64,22 @@ def test_what_is_chosen_of_a_format_is_what_the_command_makes_of_a_recipe_that_s
     # 300 mm are two sheets of A4 across and two down.
     assert b"/Count 4" in data
     assert with_output(draft, "pdf", {}) is draft
+
+
+def test_a_sheet_of_paper_is_full_of_the_pattern_and_other_files_are_as_they_were() -> None:
+    draft = (
+        Draft(FLOWER, stem="mine")
+        .with_value("tile.size", ["40 mm", "40 mm"])
+        .with_value("place[0].width", 36)
+    )
+    parts = on_paper(draft, Wishes(("svg", "pdf"), recipe=True), "full A4", "spot")
+    made = {name: data for each in parts for name, data in export(*each).files.items()}
+    plain = export(draft, Wishes(("svg",), recipe=True)).files
+    assert {name: made[name] for name in plain} == plain
+    assert b"/MediaBox [ 0 0 595.27" in made["mine.pdf"].replace(b"[0", b"[ 0")
+    assert b"/Separation" in made["mine.pdf"]
+    assert on_paper(draft, Wishes(("svg",)), "full A4") == [(draft, Wishes(("svg",)))]
+    assert on_paper(draft, Wishes()) == [(draft, Wishes(("svg",)))]
 
 
 def test_processes_and_machines_are_those_of_the_call() -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING
 
 from nicegui import background_tasks, ui
 
@@ -12,13 +12,12 @@ from batik_vector.export import FORMATS
 from batik_vector.machines import MACHINES
 from batik_vector.processes.options import PROCESSES
 from batik_vector.studio.asking import Wishes
-from batik_vector.studio.exports import Exported, download, with_output
+from batik_vector.studio.exports import FULL, PAPERS, TAPED, Exported, download, on_paper
 from batik_vector.studio.page.dialogs import dialog
 from batik_vector.studio.page.parts import group, main_button, offering, report, say, text, word_button
 from batik_vector.studio.pictures import EXPORT
 
 if TYPE_CHECKING:
-    from batik_vector.studio.drafts import Draft
     from batik_vector.studio.page.session import Session
 
 USUAL = ("svg", "pdf")
@@ -26,8 +25,7 @@ USUAL = ("svg", "pdf")
 NONE = "none"
 LABELS = {"gcode": "G-code", "swatch": "Swatch"}
 """What formats are called whose names are not their letters."""
-AS_SAID, FULL, TAPED = "", "full", "taped"
-PAPERS = {"A4": ("210 mm", "297 mm"), "A3": ("297 mm", "420 mm"), "Letter": ("215.9 mm", "279.4 mm")}
+AS_SAID = ""
 INKS = {AS_SAID: "as on the screen", "spot": "separations, a plate for each ink"}
 
 
@@ -35,9 +33,6 @@ def export(session: Session) -> None:
     """Open the dialog."""
     with dialog("Export", "wide") as made:
         Exporting(session, made)
-
-
-Part: TypeAlias = "tuple[Draft, Wishes]"
 
 
 class Exporting:
@@ -91,31 +86,6 @@ class Exporting:
             found |= {f"{FULL} {name}": f"one sheet of {name}, full of the pattern" for name in PAPERS}
         return found | {f"{TAPED} {name}": f"sheets of {name}, to tape together" for name in PAPERS}
 
-    def _parts(self, formats: tuple[str, ...], processes: tuple[str, ...], machine: str) -> list[Part]:
-        """Return what is exported: with what is said of a PDF, that apart from all else."""
-        recipe = bool(self.recipe.value)
-        how, _, paper = str(self.pages.value or AS_SAID).partition(" ")
-        values: dict[str, Any] = {}
-        draft = self.draft
-        if how == TAPED:
-            # Sheets overlap by more than printers leave white along both edges.
-            width, length = PAPERS[paper]
-            page = f"{width.removesuffix(' mm')} x {length}"
-            values = {"pages": "tile", "page": page, "overlap": "15 mm"}
-        if how == FULL:
-            width, length = PAPERS[paper]
-            draft = draft.with_value("yardage", {"width": width, "length": length})
-            values = {"piece": "yardage"}
-        if self.inks.value:
-            values["inks"] = self.inks.value
-        if "pdf" not in formats or not values:
-            return [(self.draft, Wishes(formats or ("svg",), processes, machine, recipe))]
-        rest = tuple(each for each in formats if each != "pdf")
-        parts = [(with_output(draft, "pdf", values), Wishes(("pdf",), processes, machine, False))]
-        if rest or recipe:
-            parts.append((self.draft, Wishes(rest or ("svg",), processes, machine, recipe)))
-        return parts
-
     def _asked(self) -> list[str]:
         outputs = self.draft.tables.get("output", []) if not self.draft.faults else []
         return [each.get("format", "") for each in outputs if isinstance(each, dict)]
@@ -150,7 +120,9 @@ class Exporting:
         begun = time.perf_counter()
         files: dict[str, bytes] = {}
         try:
-            for draft, wishes in self._parts(*asked):
+            whole = Wishes(*asked, bool(self.recipe.value))
+            pages, inks = str(self.pages.value or AS_SAID), str(self.inks.value or AS_SAID)
+            for draft, wishes in on_paper(self.draft, whole, pages, inks):
                 done = await self.session.images.export(draft, wishes, tell=self._tell)
                 if done.faults:
                     say(self.told, "; ".join(str(each) for each in done.faults[:3]))
