@@ -88,7 +88,7 @@ def _leaves(
 
 def _placed(data: Tables, kind: str) -> Tables:
     """Return the table of a motif of some kind that is placed; the first placed is made one where none is."""
-    names = [place["motif"] for place in data["place"]]
+    names = [place["motif"] for place in data["place"] if "motif" in place]
     name = next((each for each in names if data["motif"][each]["kind"] == kind), None)
     if name is None:
         ink = {"ink": next(iter(data["ink"]))} if "ink" in data else {}
