@@ -1,8 +1,7 @@
 """Whether ink that ends along a seam was drawn to end there: what its corners look like.
 
 A page that cuts a mark off leaves a straight end too. The drawing's own are known by their corners: square
-ones, those where borders of several marks meet, rounded ones, those of lines that come in squarely, and those
-that it has elsewhere as well.
+ones, those where borders of several marks meet, rounded ones, and those that it has elsewhere as well.
 """
 
 from __future__ import annotations
@@ -59,17 +58,7 @@ class Corners:
         length = float(self.seam.length)
         if high - low >= length - ROUNDING:
             return True
-        return all(self._own(place) for place in (low, high)) or self._squarely(low, high)
-
-    def _squarely(self, low: float, high: float) -> bool:
-        """Whether a bent line comes in squarely: its borders do, and lean the same way further on."""
-        for side in (self.near, self.far):
-            ends = [borders(side.spans, place, self.seam.length, self.limit) for place in (low, high)]
-            lean, tangent, _ = (np.concatenate(parts) for parts in zip(*ends, strict=True))
-            alone = [len(end[0]) for end in ends] == [1, 1]
-            if alone and np.abs(tangent).max() <= SQUARE and lean[0] * lean[1] > 0:
-                return True
-        return False
+        return all(self._own(place) for place in (low, high))
 
     def displaced(self, low: float, high: float) -> bool:
         """Whether a border of either edge ends the stretch, and they are so near that they ought to meet."""
@@ -95,11 +84,14 @@ class Corners:
         if len(here) and len(there):
             # A curve that goes straight on, in another colour, is one mark in two halves.
             return not (abs(here[0] + there[0]) <= SMOOTH and min(one[0], other[0]) < straight)
-        if ((run >= straight) & (np.abs(lean) <= SQUARE) & (np.abs(lean - tangent) <= BENT)).any():
+        flat = np.abs(lean - tangent) <= BENT
+        if ((run >= straight) & (np.abs(lean) <= SQUARE) & flat).any():
             return True
         own = self._elsewhere()
+        # Half a round mark leaves squarely, too, and any rectangle elsewhere would speak for it.
+        tangent = tangent[flat | (np.abs(tangent) > SQUARE)]
         turned_by = np.degrees(np.arccos(np.clip(np.concatenate([tangent, -tangent]), -1, 1)))
-        return bool(len(own) and (np.abs(turned_by[:, None] - own[None, :]).min(axis=1) <= CORNER).any())
+        return bool((np.abs(turned_by[:, None] - own[None, :]) <= CORNER).any())
 
     def _elsewhere(self) -> Floats:
         """Return by how many degrees borders turn, inside the page, at the ends of pieces along this seam."""

@@ -46,8 +46,6 @@ def edges(certificate: Certificate) -> list[tuple[str, float, float]]:
         # A rod from disc to disc lies beside the edge: as it meets them there, it does on its other side.
         ('<path d="M0 10.101A5 5 0 0 1 2 19.899V40.172A3 3 0 0 1 0 45.828z'
          'M60 10.101A5 5 0 0 0 60 19.899zM60 40.172A3 3 0 0 0 60 45.828z"/>', [("left", 20, 40)]),
-        # A bent line that comes in squarely may end there, as a straight one may.
-        ('<path d="M0 10a9 9 0 0 1 9 9h-2a7 7 0 0 0-7-7z"/>', [("left", 48, 50)]),
         # Rounded corners leave the edge along it.
         ('<rect width="40" height="20" y="20" rx="5"/>', [("left", 25, 35)]),
         # A line that comes in squarely may end there.
