@@ -2,7 +2,7 @@
 
 One function of t draws a chamber: a rounded box in logarithmic polar coordinates, where to grow is to move.
 Thirty-four of them, each turned by 17° and larger by a twentieth, are the shell, and a long one is where the
-animal lives. Shells of both senses drift among bubbles, on the deep green of a lagoon.
+animal lives. Shells of both senses drift among stars and bubbles in a lagoon; rows of dots follow all of it.
 
 To vary it: GROWTH (how much wider a turn is than the one before), STEP, and the power in ``rounded``.
 """
@@ -10,7 +10,9 @@ To vary it: GROWTH (how much wider a turn is than the one before), STEP, and the
 import numpy as np
 
 from batik_vector import ClothSpec, Element, InkSpec, Placement, Recipe, Rosette, TileSpec
-from batik_vector.geometry.curves import Circle, Curve
+from batik_vector.geometry.curves import Blade, Circle, Curve
+from batik_vector.recipe.fills import Cecek
+from batik_vector.tiling.layouts import FreeGround, Toss
 
 GROWTH = np.log(3) / (2 * np.pi)
 STEP = np.radians(17)
@@ -41,26 +43,54 @@ shell = [drawn(first + k * STEP, STEP, name="chamber", ink="cotton") for k in ra
 shell.append(drawn(0.05, 1.8, name="home", ink="ochre"))
 shell += [drawn(angle, 0.07, name="growth", treatment="cut") for angle in (0.62, 0.98, 1.30, 1.56)]
 
-bubbles = [
-    Element(curve=Circle(size), radius=reach, turn=turn, name="bubble", ink=ink)
-    for size, reach, turn, ink in (
-        (3.4, 0, 0, "cotton"),
-        (2.2, 8.5, 100, "ochre"),
-        (1.5, 13.5, 78, "cotton"),
-        (1.0, 17.5, 92, "ochre"),
-        (0.8, 21.0, 84, "cotton"),
+
+def ring(size, ink):
+    """A bubble."""
+    return Rosette(
+        elements=[
+            Element(curve=Circle(size), name="bubble", ink=ink),
+            Element(curve=Circle(0.55 * size), name="bubble", treatment="cut"),
+        ]
     )
-]
-bubbles.append(Element(curve=Circle(2.0), name="bubble", treatment="cut"))
+
+
+star = Rosette(
+    elements=[
+        Element(
+            curve=Blade(length=8.5, width=3.2, base=0.7, tip=0.9),
+            count=5,
+            turn=90,
+            name="arm",
+            ink="ochre",
+            fill_with=Cecek(follow="axis", spacing=1.6, width=0.7, margin=0.5),
+        ),
+        Element(curve=Circle(1.5), name="heart", ink="cotton", gap=0.7),
+    ]
+)
 
 recipe = Recipe(
     title="Nautilus",
     cloth=ClothSpec(colour="#143642"),
-    ink={"cotton": InkSpec(colour="#f2ead8"), "ochre": InkSpec(colour="#d99a4e")},
-    motif={"shell": Rosette(elements=shell), "bubbles": Rosette(elements=bubbles)},
+    ink={
+        "cotton": InkSpec(colour="#f2ead8"),
+        "ochre": InkSpec(colour="#d99a4e"),
+        "ripple": InkSpec(colour="#5b9a94"),
+    },
+    motif={
+        "shell": Rosette(elements=shell),
+        "star": star,
+        "bubble": ring(1.6, "cotton"),
+        "pearl": ring(1.2, "ochre"),
+    },
     place=[
         Placement(motif="shell", scale=0.66, at=(28.0, 26.0), turn=20),
-        Placement(motif="bubbles", scale=0.68, at=(62.0, 32.0)),
+        Placement(motif="star", scale=0.85, layout=Toss(distance=2.2, clear="all", turn=(-180, 180))),
+        Placement(motif=["bubble", "pearl"], scale=1, layout=Toss(distance=3, clear="all", size=(0.6, 1))),
+        Placement(
+            ink="ripple",
+            layout=FreeGround(),
+            fill_with=Cecek(follow="contour", spacing=1.9, width=0.8, margin=0.9),
+        ),
     ],
     tile=TileSpec(size=(114.0, 116.0), repeat="pgg"),
 )
