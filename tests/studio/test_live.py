@@ -68,6 +68,24 @@ def test_of_pictures_that_wait_for_a_browser_the_newest_is_sent() -> None:
     asyncio.run(run())
 
 
+def test_who_takes_a_picture_late_is_told_its_verdict_with_it() -> None:
+    async def run() -> None:
+        live, socket = Live(lambda *_: None), Socket()
+        live.put({"n": 0}, b"<svg/>")
+        live.amend({"verdict": "passed"})
+        serving = asyncio.create_task(live.serve(socket))  # type: ignore[arg-type]
+        await rest()
+        assert [head.get("verdict") for head, _ in socket.seen] == ["passed"]
+        live.put({"n": 1}, b"<svg/>")
+        socket.says.put_nowait('"shown"')
+        await rest()
+        assert [head.get("verdict") for head, _ in socket.seen] == ["passed", None]
+        socket.says.put_nowait(None)
+        await serving
+
+    asyncio.run(run())
+
+
 def test_a_motif_alone_does_not_take_the_place_of_the_pattern() -> None:
     async def run() -> list[tuple[str, bytes]]:
         live, socket = Live(lambda *_: None), Socket()

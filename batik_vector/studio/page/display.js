@@ -80,7 +80,8 @@ window.studio = (() => {
     guides = head.guides || [];
     pins = [];
     for (const [name, words] of Object.entries(head.words)) say(`said-${name}`, words);
-    if (!head.certified) verdict("", true);
+    if (head.verdict) verdict(head.verdict, head.passed);
+    else if (!head.certified) verdict("", true);
     applyLayers();
     if (fresh || fitted) fit(); else draw();
     requestAnimationFrame(() => { token.shown++; token.at = performance.now(); token.first ??= token.at; });

@@ -363,6 +363,8 @@ class Display:
         faults = found.verdict["faults"]
         passed = found.verdict["passed"]
         words = "Seam certificate passed" if passed else f"{len(faults)} faults in the certificate"
+        # A browser that takes the picture only now would wipe out what was said of it before.
+        self.live.amend({"verdict": words, "passed": passed})
         self._run(f"studio.verdict({json.dumps(words)}, {json.dumps(passed)})")
         height = found.facts["cell_mm"][1]
         pins = [

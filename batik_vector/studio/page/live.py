@@ -34,7 +34,7 @@ class Live:
 
     def __init__(self, slid: Slid) -> None:
         self._slid = slid
-        self._frames: dict[str, bytes] = {}
+        self._parts: dict[str, tuple[dict[str, Any], bytes]] = {}
         self._due: dict[str, None] = {}
         self._fresh = asyncio.Event()
         self._shown = asyncio.Event()
@@ -47,15 +47,25 @@ class Live:
             svg: the picture.
             part: "motif" for that of a motif alone, nothing for the whole.
         """
-        told = json.dumps({**head, "part": part}).encode()
-        self._frames[part] = len(told).to_bytes(4, "big") + told + svg
+        self._parts[part] = {**head, "part": part}, svg
         self._due[part] = None
         self._fresh.set()
+
+    def amend(self, more: Mapping[str, Any]) -> None:
+        """Add to what is known of the whole picture, for browsers that have not taken it yet."""
+        if "" in self._parts:
+            head, svg = self._parts[""]
+            self._parts[""] = {**head, **more}, svg
+
+    def _frame(self, part: str) -> bytes:
+        head, svg = self._parts[part]
+        told = json.dumps(head).encode()
+        return len(told).to_bytes(4, "big") + told + svg
 
     async def serve(self, socket: WebSocket) -> None:
         """Serve a browser until it goes; what it missed is sent at once."""
         await socket.accept()
-        if "" in self._frames:
+        if "" in self._parts:
             self._due[""] = None
             self._fresh.set()
         self._shown.set()
@@ -73,11 +83,15 @@ class Live:
             with contextlib.suppress(TimeoutError):
                 await asyncio.wait_for(self._shown.wait(), PATIENCE)
             self._shown.clear()
-            part = next(iter(self._due))
-            del self._due[part]
+            # A browser that comes back may have another socket for a moment, which took it.
+            part = next(iter(self._due), None)
+            if part is not None:
+                del self._due[part]
             if not self._due:
                 self._fresh.clear()
-            await socket.send_bytes(self._frames[part])
+            if part is None:
+                continue
+            await socket.send_bytes(self._frame(part))
 
     def _hear(self, words: str) -> None:
         try:
