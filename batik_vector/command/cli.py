@@ -22,7 +22,14 @@ from batik_vector.command.installed_plugins import broken, plugins_command
 from batik_vector.command.library import library_command
 from batik_vector.command.made_files import called
 from batik_vector.command.manual import exit_codes_told, man_command
-from batik_vector.command.options import Finite, files_begun, json_option, machines_begun, set_option
+from batik_vector.command.options import (
+    Finite,
+    file_option,
+    files_begun,
+    json_option,
+    machines_begun,
+    set_option,
+)
 from batik_vector.command.palettes import colourways_command, palettes_command
 from batik_vector.command.stopping import EXITS, end_on_sigterm, listen
 from batik_vector.command.studio import studio_command
@@ -247,14 +254,7 @@ def _kind_name(_ctx: click.Context, _param: click.Parameter, name: str | None) -
     metavar="KIND",
     help=f"What it begins as: {', '.join(KINDS)}.  [default: NAME where it is one, or {DEFAULT_KIND}]",
 )
-@click.option(
-    "-o",
-    "--output",
-    "path",
-    metavar="FILE",
-    shell_complete=files_begun,
-    help="The file to write.  [default: NAME.toml]",
-)
+@file_option("The file to write.  [default: NAME.toml]")
 @click.option("--force", is_flag=True, help="Replace a file that is there.")
 @click.option("--list", "as_list", is_flag=True, help="Say what kinds there are, each in a line.")
 def new_command(name: str | None, kind: str | None, path: str | None, force: bool, as_list: bool) -> None:

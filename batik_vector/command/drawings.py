@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from batik_vector.command.options import Finite, files_begun, json_option
+from batik_vector.command.options import Finite, file_option, files_begun, json_option
 from batik_vector.command.telling import collecting, counted, reported, stages
 from batik_vector.errors import ExportError
 
@@ -24,14 +24,7 @@ STYLES = ("solo", "pesisir", "miao")
 
 @click.command("import", short_help="Take a whole tile over as a recipe.")
 @click.argument("tile", metavar="TILE.svg", shell_complete=files_begun)
-@click.option(
-    "-o",
-    "--output",
-    "path",
-    metavar="FILE",
-    shell_complete=files_begun,
-    help="The recipe to write.  [default: NAME.toml]",
-)
+@file_option("The recipe to write.  [default: NAME.toml]")
 @click.option("--repeat", metavar="WORDS", default="grid", help="How the page repeats.  [default: grid]")
 @click.option(
     "--tolerance",
@@ -134,14 +127,7 @@ def _several(count: int, what: str) -> str:
 
 @click.command("batify", short_help="Make a plain drawing batik.")
 @click.argument("drawing", metavar="DRAWING.svg", shell_complete=files_begun)
-@click.option(
-    "-o",
-    "--output",
-    "path",
-    metavar="FILE",
-    shell_complete=files_begun,
-    help="The recipe to write.  [default: NAME-batik.toml]",
-)
+@file_option("The recipe to write.  [default: NAME-batik.toml]")
 @click.option(
     "--style", type=click.Choice(STYLES), default="solo", help="Whose hand fills it.  [default: solo]"
 )
@@ -207,14 +193,7 @@ def batify_command(
 @click.command("export-motif", short_help="Draw one motif of a recipe as an SVG.")
 @click.argument("recipe", metavar="RECIPE", shell_complete=files_begun)
 @click.argument("motif", metavar="MOTIF")
-@click.option(
-    "-o",
-    "--output",
-    "path",
-    metavar="FILE",
-    shell_complete=files_begun,
-    help="The SVG to write.  [default: MOTIF.svg]",
-)
+@file_option("The SVG to write.  [default: MOTIF.svg]")
 @click.option("--force", is_flag=True, help="Replace a file that is there.")
 def export_motif_command(recipe: str, motif: str, path: str | None, force: bool) -> None:
     """Draw one motif of a recipe as an SVG, to be edited and read again as a motif of kind "svg"."""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from batik_vector.command.library_options import as_json_option, file_option, report_of
-from batik_vector.command.options import files_begun, folders_begun, workers_of
+from batik_vector.command.options import files_begun, folder_option, workers_of
 from batik_vector.command.telling import collecting, counted, faults_told, reported
 from batik_vector.errors import ExportError, LibraryError, unknown_name
 from batik_vector.values import frozen
@@ -160,15 +160,7 @@ def _measured(
 @click.argument("names", nargs=-1, metavar="NAME[@N]…")
 @click.option("--all", "everything", is_flag=True, help="All patterns of your own.")
 @click.option("--tag", "tags", multiple=True, metavar="TAG", help="All that have it.")
-@click.option(
-    "-o",
-    "--output",
-    "folder",
-    default=".",
-    metavar="DIR|FILE.zip",
-    shell_complete=folders_begun,
-    help="Where files go.  [default: .]",
-)
+@folder_option("Where files go.  [default: .]", ".", "DIR|FILE.zip")
 @click.option(
     "-f",
     "--format",

@@ -11,7 +11,7 @@ import click
 from batik_vector.command.options import (
     Finite,
     all_formats,
-    folders_begun,
+    folder_option,
     format_names,
     formats_begun,
     machines_begun,
@@ -33,15 +33,7 @@ class _Formats(click.Option):
 
 
 _OPTIONS = (
-    click.option(
-        "-o",
-        "--output",
-        "folder",
-        default=".",
-        metavar="DIR",
-        shell_complete=folders_begun,
-        help="Where files go; made if missing.  [default: .]",
-    ),
+    folder_option("Where files go; made if missing.  [default: .]", "."),
     click.option(
         "-f",
         "--format",

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
@@ -89,6 +89,29 @@ def workers_of(_ctx: click.Context, _param: click.Parameter, number: int) -> int
         return len(os.sched_getaffinity(0))
     except AttributeError:
         return os.cpu_count() or 1
+
+
+Called = TypeVar("Called", bound=Callable[..., Any])
+
+
+def file_option(help_text: str) -> Callable[[Called], Called]:
+    """Return ``-o``: the one file that a command writes."""
+    return click.option("-o", "--output", "path", metavar="FILE", shell_complete=files_begun, help=help_text)
+
+
+def folder_option(
+    help_text: str, default: str | None = None, metavar: str = "DIR"
+) -> Callable[[Called], Called]:
+    """Return ``-o``: the folder where a command's files go."""
+    return click.option(
+        "-o",
+        "--output",
+        "folder",
+        default=default,
+        metavar=metavar,
+        shell_complete=folders_begun,
+        help=help_text,
+    )
 
 
 recipes_argument = click.argument(

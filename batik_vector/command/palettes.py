@@ -6,7 +6,7 @@ from typing import Any
 
 import click
 
-from batik_vector.command.options import files_begun, folders_begun, json_option, listed, set_option
+from batik_vector.command.options import files_begun, folder_option, json_option, listed, set_option
 from batik_vector.command.telling import collecting, sheet_told
 from batik_vector.command.worksheets import SHEET_FORMATS
 
@@ -57,15 +57,7 @@ def palettes_command(as_json: bool) -> None:
     metavar="NAME,…|all",
     help="Colourways of the recipe, or palettes.  [default: all of the recipe]",
 )
-@click.option(
-    "-o",
-    "--output",
-    "folder",
-    default="out",
-    metavar="DIR",
-    shell_complete=folders_begun,
-    help="Where it goes.  [default: out]",
-)
+@folder_option("Where it goes.  [default: out]", "out")
 @click.option(
     "-f",
     "--format",

@@ -10,7 +10,7 @@ import click
 from batik_vector.command.options import (
     Finite,
     files_begun,
-    folders_begun,
+    folder_option,
     format_names,
     jobs_option,
     json_option,
@@ -87,14 +87,7 @@ def _shared(folder: str) -> Callable[[Command], Command]:
     sheet_formats = f"{', '.join(SHEET_FORMATS)}.  [default: svg,pdf]"
     options = [
         set_option,
-        click.option(
-            "-o",
-            "--output",
-            "folder",
-            metavar="DIR",
-            shell_complete=folders_begun,
-            help=f"Where files go.  [default: {folder}]",
-        ),
+        folder_option(f"Where files go.  [default: {folder}]"),
         click.option(
             "-f",
             "--format",

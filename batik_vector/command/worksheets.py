@@ -6,7 +6,7 @@ from typing import Any
 
 import click
 
-from batik_vector.command.options import files_begun, folders_begun, json_option, set_option
+from batik_vector.command.options import files_begun, folder_option, json_option, set_option
 from batik_vector.command.telling import collecting, sheet_told
 
 SHEET_FORMATS = ("svg", "pdf", "png")
@@ -15,15 +15,7 @@ SHEET_FORMATS = ("svg", "pdf", "png")
 
 @click.command("worksheet", short_help="Draw the steps of waxing and dyeing for the workshop.")
 @click.argument("recipe", metavar="RECIPE", shell_complete=files_begun)
-@click.option(
-    "-o",
-    "--output",
-    "folder",
-    default="out",
-    metavar="DIR",
-    shell_complete=folders_begun,
-    help="Where it goes.  [default: out]",
-)
+@folder_option("Where it goes.  [default: out]", "out")
 @click.option(
     "-f",
     "--format",
