@@ -29,7 +29,8 @@ def test_a_stranger_finds_how_to_cut_vinyl_in_two_clicks(chromium: Any) -> None:
     page = chromium.new_page(viewport=DESK)
     page.goto((SITE / "index.html").as_uri())
     row = page.locator("article tr", has_text="vinyl")
-    row.get_by_role("link").click()
+    # A row has its picture, which is a link too, and the page's name.
+    row.get_by_role("link", name="For the cutter").click()
     page.locator(".toc-tree a", has_text="Vinyl").click()
     assert page.url.endswith("#vinyl")
     assert "--machine vinyl-cutter" in page.locator("section#vinyl pre").first.inner_text()
