@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -16,7 +15,6 @@ from batik_vector.export import FORMATS, render
 from batik_vector.export.options import PngOptions, TiffOptions
 from batik_vector.tiling.cloth.field import collected, repeated
 from batik_vector.tiling.cloth.yardage import Yardage
-from batik_vector.tiling.layouts.grounds import FreeGround
 from tests.tiling.test_seamless import assert_line_ends_meet, crossings, cuts, difference, rolled, twins
 from tools import golden
 
@@ -112,10 +110,7 @@ def test_the_certificate_passes(name: str) -> None:
 
 @pytest.mark.parametrize("asked", COPIES)
 def test_the_group_in_the_drawing_is_the_one_asked_for(asked: str) -> None:
-    """A ground aside: what fills the free room is strewn over the whole repeat, and keeps to no group."""
-    recipe = recipe_of(f"group-{asked}")
-    placed = tuple(each for each in recipe.place if not isinstance(each.layout, FreeGround))
-    artwork = compile_recipe(replace(recipe, place=placed))
+    artwork = compiled(f"group-{asked}")
     found = found_group(artwork.layers, artwork.cell)
     # More copies than these, or another name, would be a symmetry that nobody asked for.
     assert (found.name, found.copies) == (asked, COPIES[asked])

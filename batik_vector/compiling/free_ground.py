@@ -13,12 +13,14 @@ from batik_vector.artwork import Geometries, Ink
 from batik_vector.errors import GeometryError, RecipeError, TooLargeError
 from batik_vector.geometry import work
 from batik_vector.geometry.fills.insets import whole
-from batik_vector.geometry.fills.periodic import Period, closing
+from batik_vector.geometry.fills.periodic import Group, Period, closing
+from batik_vector.geometry.fills.symmetric import settled_marks, spread
 from batik_vector.geometry.maps.affine import Affine, unit_turn
 from batik_vector.geometry.regions import oriented, polygonal
 from batik_vector.geometry.sampling import Array
 from batik_vector.recipe.fills import Fill, Room
 from batik_vector.recipe.placement import Placement
+from batik_vector.tiling.symmetry.orbits import Orbit
 from batik_vector.tiling.torus import overlay
 from batik_vector.tiling.torus.torus import Lattice, Window, as_steps, clip_areas, to_mm, to_step_grid, wrap
 from batik_vector.tiling.welding.congruent import polygons
@@ -31,15 +33,26 @@ MOST_ASLANT = 0.05
 ROUNDING = 2 * GRID_MM
 """What is kept of a margin for moves onto the grid: that of a mark, and that of what it keeps from."""
 
+MOST_TRIED = 2_000
+"""Points of outlines, about, that tell whether what is placed keeps a group."""
+
+LEAST_OFF = 0.05
+"""How far outlines may at least lie from their images, in mm: curves are flattened and copies rounded."""
+
 
 class Given(NamedTuple):
-    """What a ground hangs on: the lattice in grid steps, the inks by name, ``tolerance`` in mm."""
+    """What a ground hangs on: the lattice in grid steps, the inks by name, ``tolerance`` in mm.
+
+    ``orbit`` is that of the group which marks keep, with its region, if what is placed keeps it or the ground
+    asks for it; None where translations are all.
+    """
 
     lattice: Lattice
     inks: Mapping[str, Ink]
     tolerance: float
     seed: int
     limit: int
+    orbit: Orbit | None = None
 
 
 def free_ground(placement: Placement, sheets: Sequence[Sheet], given: Given) -> Sheet:
@@ -62,7 +75,14 @@ def free_ground(placement: Placement, sheets: Sequence[Sheet], given: Given) -> 
     inner = replace(fill, margin=fill.margin / least + ROUNDING)
     rings = fill.basis() is None and _follows_rings(fill)
     pad = float(np.diag(lattice).min()) / 2 if rings else 4 * fill.spacing + 2 * fill.margin
-    free = _free(sheets, given, lattice, pad)
+    group = None if given.orbit is None or fill.basis() else _group(given.orbit)
+    pad += 0.0 if group is None else _beyond(group.region, lattice)
+    free, taken = _free(sheets, given, lattice, pad)
+    if group is not None and not (
+        placement.symmetry or _keep(group, free, Period(lattice, pad), given.tolerance)
+    ):
+        group = None
+    period = Period(lattice, pad, group)
     back: Array = np.asarray(np.linalg.inv(aslant), np.float64)
     room = Room(
         whole(_linear(free, back)),
@@ -70,13 +90,17 @@ def free_ground(placement: Placement, sheets: Sequence[Sheet], given: Given) -> 
         1,
         given.tolerance,
         given.seed,
-        None if fill.basis() else Period(lattice, pad),
+        None if fill.basis() else period,
     )
     try:
         marks = inner.lay(room)[0] if len(free) else np.empty(0, dtype=object)
     except TooLargeError as error:
         raise TooLargeError(f"fill_with.{error}") from None
-    marks = _once(_linear(marks, aslant), fill, given.lattice, Period(lattice, pad))
+    marks = _linear(marks, aslant)
+    if group is None:
+        marks = _once(marks, fill, given.lattice, period)
+    elif given.orbit is not None:
+        marks = _imaged(marks, fill, given.orbit, period, taken)
     if not len(marks):
         raise GeometryError(
             f'fill_with.margin = {fill.margin:g}: no mark of "{fill.kind}" has room in what is free of the '
@@ -124,8 +148,36 @@ def _aslant(fill: Fill, lattice: Array) -> Array:
     return found
 
 
-def _free(sheets: Sequence[Sheet], given: Given, lattice: Array, pad: float) -> Geometries:
-    """Return what is free of the window of a repeat and ``pad`` mm round it, in mm."""
+def _group(orbit: Orbit) -> Group:
+    """Return the group of an orbit that has a region, in mm."""
+    assert orbit.region is not None
+    return Group(orbit.operations, shapely.Polygon(np.array(orbit.region.corners) / STEPS_PER_MM))
+
+
+def _keep(group: Group, free: Geometries, period: Period, tolerance: float) -> bool:
+    """Return whether the outlines of what is free lie on themselves under the operations of a group."""
+    outlines = np.asarray(shapely.boundary(free), dtype=object)
+    points = shapely.get_coordinates(outlines)
+    points = points[period.owns(points)]
+    points = points[:: max(1, len(points) // MOST_TRIED)]
+    if not len(points):
+        return True
+    images = np.concatenate([period.home(each.at(points)) for each in group.operations[1:]])
+    near, _ = shapely.STRtree(outlines).query(
+        shapely.points(images), predicate="dwithin", distance=max(LEAST_OFF, 4 * tolerance)
+    )
+    return len(np.unique(near)) == len(images)
+
+
+def _beyond(region: shapely.Polygon, lattice: Array) -> float:
+    """Return how far a region reaches out of the window of a repeat, in mm."""
+    low_x, low_y, high_x, high_y = region.bounds
+    wide, tall = np.diag(lattice).tolist()
+    return float(max(-low_x, -low_y, high_x - wide, high_y - tall, 0.0))
+
+
+def _free(sheets: Sequence[Sheet], given: Given, lattice: Array, pad: float) -> tuple[Geometries, Geometries]:
+    """Return what is free of the window of a repeat and ``pad`` mm round it, and what is not, in mm."""
     shapes = [polygons(sheet.areas) for sheet in sheets if sheet.ink is not None]
     shapes += [
         np.asarray(shapely.buffer(sheet.lines, sheet.ink.width / 2, quad_segs=16), dtype=object)
@@ -140,7 +192,7 @@ def _free(sheets: Sequence[Sheet], given: Given, lattice: Array, pad: float) -> 
     work.spend(float(shapely.get_num_coordinates(there).sum()))
     left = shapely.difference(window.box, shapely.union_all(there))
     parts = np.asarray(shapely.get_parts(left), dtype=object)
-    return oriented(to_mm(parts[shapely.area(parts) > 1.0]))
+    return oriented(to_mm(parts[shapely.area(parts) > 1.0])), to_mm(there)
 
 
 def _linear(marks: Geometries, rows: Array) -> Geometries:
@@ -148,6 +200,22 @@ def _linear(marks: Geometries, rows: Array) -> Geometries:
         return marks
     (a, b), (c, d) = rows.tolist()
     return Affine(a, b, c, d).apply(marks)
+
+
+def _imaged(marks: Geometries, fill: Fill, orbit: Orbit, period: Period, taken: Geometries) -> Geometries:
+    """Return all images of marks laid in the region of a group; of what has no room somewhere, none."""
+    if not len(marks):
+        return marks
+    if not fill.whole:
+        # Bands are drawn beyond the region too, so that nothing needs to be carried in from other repeats.
+        return replace(orbit, periods=()).mirrored(marks)
+    if fill.kind == "sawut":
+        marks = marks[settled_marks(marks, fill.bare, period)]
+    images, owner = spread(marks, period)
+    near, _ = shapely.STRtree(taken).query(images, predicate="dwithin", distance=fill.margin)
+    stays = np.ones(len(marks), bool)
+    stays[owner[near]] = False
+    return images[stays[owner]]
 
 
 def _once(marks: Geometries, fill: Fill, lattice: Lattice, period: Period) -> Geometries:

@@ -11,7 +11,7 @@ from batik_vector.fields import Between, Length, Names, Says, Text, check
 from batik_vector.recipe.fills import AnyFill
 from batik_vector.recipe.references import quoted
 from batik_vector.tiling.layouts import AnyLayout, Bend, DoubleSquare, FreeGround, Scattered, Single, Stripes
-from batik_vector.tiling.symmetry.groups import GROUP_PATTERN, group_name
+from batik_vector.tiling.symmetry.groups import GROUP_PATTERN, Group, group, group_name
 from batik_vector.tiling.symmetry.spread import Spread
 from batik_vector.values import frozen
 
@@ -129,7 +129,7 @@ class Placement:
                 "fill_with is missing: a ground is filled with marks, expected them, such as "
                 'fill_with = { kind = "cecek" }'
             )
-        for key in ("motif", "width", "scale", "at", "turn", "mirror", "gap", "symmetry", "phase", "region"):
+        for key in ("motif", "width", "scale", "at", "turn", "mirror", "gap", "phase", "region"):
             value = getattr(self, key)
             if value not in (None, "", 0.0, (0.0, 0.0), ()):
                 shown = (
@@ -140,6 +140,11 @@ class Placement:
                     else value
                 )
                 raise GeometryError(f"{key} = {shown}: a ground is filled with marks, expected no {key}")
+        if self.symmetry not in ("", "p1") and self.fill_with.basis():
+            raise GeometryError(
+                f'symmetry = "{self.symmetry}": rows at an angle repeat by translations alone, expected '
+                "marks that follow the contour or are scattered, or no symmetry"
+            )
         if self.counterchange:
             raise GeometryError("counterchange = true: a ground lies over nothing, expected none")
         follow = str(getattr(self.fill_with, "follow", ""))
@@ -176,6 +181,12 @@ class Placement:
     def spread(self) -> Spread | None:
         """What its symmetry multiplies; tossed marks stay whole, whatever the repeat does with others."""
         return self.region or (Spread.FREE if isinstance(self.layout, Scattered) else None)
+
+    def keeps(self, asked: Group) -> bool:
+        """Return whether what it draws has the symmetry of a tile whose group is ``asked``."""
+        if isinstance(self.layout, FreeGround) and (self.fill_with is None or self.fill_with.basis()):
+            return False
+        return self.phase == (0.0, 0.0) and (not self.symmetry or group(self.symmetry) == asked)
 
     @property
     def motifs(self) -> tuple[str, ...]:

@@ -13,12 +13,16 @@ from batik_vector.artwork import Artwork, Geometries, Ink
 from batik_vector.certificate import certify
 from batik_vector.compiling.free_ground import Given, free_ground
 from batik_vector.errors import BatikError
+from batik_vector.geometry.fills.periodic import Period
 from batik_vector.geometry.maps.affine import Affine
+from batik_vector.geometry.regions import oriented, polygonal
 from batik_vector.recipe.fills import FILLS, Cecek, Fill, Follow, Galaran, Rows, Ukel
 from batik_vector.recipe.loading import read_recipe
 from batik_vector.recipe.placement import Placement
 from batik_vector.tiling.layouts import FreeGround
-from batik_vector.tiling.torus.torus import Lattice
+from batik_vector.tiling.symmetry.repeats import TileSpec
+from batik_vector.tiling.symmetry.spread import Spread
+from batik_vector.tiling.torus.torus import Lattice, to_mm, to_step_grid
 from batik_vector.tiling.welding.congruent import polygons
 from batik_vector.tiling.welding.sheets import Sheet
 from tests.geometry.fills.regions import region
@@ -112,6 +116,60 @@ def test_so_they_do_round_many_motifs(fill: Fill) -> None:
     for seed in range(100, 100 + examples(0, 12)):
         lattices = rows_close_on(fill)
         holds(fill, seed, lattices[seed % len(lattices)])
+
+
+POINTS = 4000
+"""Places of a repeat that are looked at."""
+
+FREE_OF_ROWS = [fill for fill in ALL if not fill.basis() and fill.kind != "isen"]
+GROUPS = {
+    name: TileSpec(size=(60, 103.923 if name[1] in "36" else 60), repeat=name)
+    for name in ("p2", "pg", "cm", "pmg", "cmm", "p4", "p4g", "p4m", "p3", "p31m", "p3m1", "p6", "p6m")
+}
+
+
+def keeps(fill: Fill, seed: int, tile: TileSpec) -> None:
+    """Assert that a ground round motifs that keep a group keeps it too, and all that is true of others."""
+    cell = tile.repeating()
+    free, cut = tile.orbit(), tile.orbit(spread=Spread.CUT)
+    motifs = shapely.union_all(
+        np.concatenate([m.apply(placed(seed, LATTICES["grid"])) for m in free.operations])
+    )
+    motifs = oriented(to_mm(polygonal(to_step_grid(shapely.get_parts(motifs)))))
+    placement = Placement(layout=FreeGround(), fill_with=fill, ink="light", symmetry=tile.repeat)
+    given = Given(cell.lattice, INKS, 0.02, 3, 10_000_000, cut)
+    marks = polygons(free_ground(placement, [Sheet("m", INKS["cotton"], motifs)], given).areas)
+    assert shapely.is_valid(marks).all()
+    tree = shapely.STRtree(around(motifs, cell.lattice))
+    _, far = tree.query_nearest(marks, return_distance=True, all_matches=False)
+    assert far.min() >= fill.margin - HAIR
+    there = shapely.STRtree(around(marks, cell.lattice, 1))
+    points = np.random.default_rng(seed).random((POINTS, 2)) * [cell.width, cell.height]
+    hits, _ = there.query(shapely.points(points), predicate="intersects")
+    drawn = np.bincount(hits, minlength=POINTS)
+    # Bands that are cut at an edge of the region lap over it, and are welded with the rest of their ink.
+    assert (drawn > 1).mean() <= (0 if fill.whole else 0.001)
+    lattice = np.array(cell.lattice) / 1000
+    for operation in cut.operations:
+        images = Period(lattice, 0.0).home(operation.at(points))
+        hits, _ = there.query(shapely.points(images), predicate="intersects")
+        # Polygons that stand for discs are turned against one another.
+        assert ((drawn > 0) != (np.bincount(hits, minlength=POINTS) > 0)).mean() < 0.004, operation
+
+
+@pytest.mark.parametrize(
+    "fill", FREE_OF_ROWS, ids=[f"{f.kind}-{getattr(f, 'follow', '')}" for f in FREE_OF_ROWS]
+)
+@pytest.mark.parametrize("name", ["pgg", "p31m"])
+def test_a_ground_keeps_the_group_of_what_lies_there(name: str, fill: Fill) -> None:
+    keeps(fill, 5, GROUPS.get(name) or TileSpec(size=(60, 60), repeat=name))
+
+
+@long
+@pytest.mark.parametrize("name", GROUPS)
+def test_so_it_does_in_every_group(name: str) -> None:
+    for seed in range(40, 40 + examples(0, 2 * len(FREE_OF_ROWS))):
+        keeps(FREE_OF_ROWS[seed % len(FREE_OF_ROWS)], seed, GROUPS[name])
 
 
 @pytest.mark.parametrize("lattice", LATTICES.values(), ids=LATTICES)

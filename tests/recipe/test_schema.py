@@ -108,6 +108,7 @@ BEYOND = {
         "a place for a pack",
         "a ground without a fill",
         "a ground with a width",
+        "a ground of rows with a symmetry",
         "a ground with an axis",
         "a counterchange with nothing",
         "a counterchange with a gap",

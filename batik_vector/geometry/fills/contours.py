@@ -32,6 +32,7 @@ def along(
     spacing: float,
     most: int = 0,
     period: Period | None = None,
+    onto_axes: bool = True,
 ) -> tuple[Array, Indices]:
     """Return places along the contour of regions, in rows from the edge inwards, and the region of each.
 
@@ -42,6 +43,7 @@ def along(
         spacing: from row to row, and about from place to place: each row shares its length out evenly.
         most: rows at most; 0 for as many as there is room for.
         period: of a ground.
+        onto_axes: whether marks may be moved onto the mirrors of the ground's group, being their own images.
     """
     points, region, rank, ranks = [np.empty((0, 2))], [np.empty(0, np.intp)], [np.empty(0, np.intp)], 0
     for number, within in levels(parts, reach, itertools.repeat(spacing)):
@@ -56,6 +58,11 @@ def along(
         rank.append(ranks + at.rank)
         ranks += int(at.rank.max(initial=0)) + 1
     places, of = np.concatenate(points), np.concatenate(region)
+    if period is not None and period.group is not None:
+        from batik_vector.geometry.fills.symmetric import settled_places
+
+        places, left = settled_places(places, np.concatenate(rank), CROWDED * spacing, period, onto_axes)
+        return places, of[left]
     kept = thinned(places, of, CROWDED * spacing, np.concatenate(rank))
     return places[kept], of[kept]
 
@@ -94,7 +101,8 @@ def bands(
             break
         room = opened(within, spacing * narrow / 2)
         rings, of = shapely.get_rings(room.shapes, return_index=True)
-        if period is not None:
+        # Bands of a ground that keeps a group are cut to its region later.
+        if period is not None and period.group is None:
             own = period.rings(rings, reach + number * spacing)
             rings, of = rings[own], of[own]
         kept = clear(rings, room.region[of], (spacing + width) / 2 * narrow, by_length(rings))

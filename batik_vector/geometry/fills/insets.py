@@ -86,7 +86,7 @@ def levels(parts: Parts, first: float, steps: Iterator[float]) -> Iterator[tuple
 class Rings(NamedTuple):
     """Closed curves round parts: points (n, 2) one after another, and of each ring where it begins, its
     part, into how many stretches alike its marks must divide it, and how far on from its first point the
-    first of them lies.
+    first of them lies. An ``open`` one is a piece of a ring, that goes on elsewhere.
     """
 
     points: Array
@@ -94,6 +94,7 @@ class Rings(NamedTuple):
     part: Indices
     turns: Indices
     offset: Array
+    open: NDArray[np.bool_]
 
 
 def rings_of(
@@ -102,7 +103,8 @@ def rings_of(
     """Return the outlines of parts, with the part to the left, each begun where an axis of symmetry may lie.
 
     That is where it reaches farthest from the motif's centre, or along +x if it goes round that: both sides
-    of a shape with an axis are then marked alike. What goes round the centre is so under ``turns`` turns.
+    of a shape with an axis are then marked alike. What goes round the centre is so under ``turns`` turns. In
+    a ground that keeps a group, what leaves its region is cut off there.
 
     Args:
         parts: with edges.
@@ -113,11 +115,23 @@ def rings_of(
     """
     rings, part = shapely.get_rings(parts.shapes, return_index=True)
     if period is not None:
-        own = period.rings(rings, reach)
-        rings, part = rings[own], part[own]
+        if period.group is not None:
+            # What keeps groups is imported once a ground has one.
+            from batik_vector.geometry.fills.symmetric import pieces
+
+            rings, part = pieces(rings, part, parts.shapes, period.group.region)
+        else:
+            own = period.rings(rings, reach)
+            rings, part = rings[own], part[own]
+    cut = shapely.get_type_id(rings) == shapely.GeometryType.LINESTRING
+    closed = _begun(rings[~cut], centres[parts.region[part[~cut]]], part[~cut], turns, period)
+    return closed if not cut.any() else _joined(closed, rings[cut], part[cut])
+
+
+def _begun(rings: Geometries, centre: Array, part: Indices, turns: int, period: Period | None) -> Rings:
+    """Return rings, begun where an axis of symmetry may lie."""
     points, of = shapely.get_coordinates(rings, return_index=True)
     first = np.searchsorted(of, np.arange(len(rings)))
-    centre = centres[parts.region[part]]
     discs = shapely.polygons(rings)
     if period is not None:
         centre = shapely.get_coordinates(shapely.centroid(discs))
@@ -135,7 +149,22 @@ def rings_of(
     ahead, behind = (points[first + 1] - points[first], points[last - 1] - points[first])
     before = np.where(outwards[first] - outwards[last - 1] < LEVEL, -np.hypot(*behind.T) / 2, 0.0)
     offset = np.where(outwards[first] - outwards[first + 1] < LEVEL, np.hypot(*ahead.T) / 2, before)
-    return Rings(points, first, part, np.where(about, turns, 1), offset)
+    return Rings(points, first, part, np.where(about, turns, 1), offset, np.zeros(len(first), bool))
+
+
+def _joined(closed: Rings, lines: Geometries, part: Indices) -> Rings:
+    """Return rings and open pieces of others after them."""
+    points, of = shapely.get_coordinates(lines, return_index=True)
+    first = len(closed.points) + np.searchsorted(of, np.arange(len(lines)))
+    nothing = np.zeros(len(lines))
+    return Rings(
+        np.concatenate([closed.points, points]),
+        np.concatenate([closed.first, first]),
+        np.concatenate([closed.part, part]),
+        np.concatenate([closed.turns, np.ones(len(lines), np.intp)]),
+        np.concatenate([closed.offset, nothing]),
+        np.concatenate([closed.open, nothing == 0]),
+    )
 
 
 class Stations(NamedTuple):
@@ -151,7 +180,10 @@ class Stations(NamedTuple):
 
 
 def stations(rings: Rings, spacing: float) -> Stations:
-    """Return places on rings: as many as fit at a spacing at least, sharing each ring evenly."""
+    """Return places on rings: as many as fit at a spacing at least, sharing each ring evenly.
+
+    An open piece has as many as its length is spacings, half a step from its ends: so has what it goes on in.
+    """
     points, first = rings.points, rings.first
     length = np.hypot(*np.diff(points, axis=0, prepend=points[:1]).T)
     length[first] = 0.0
@@ -160,9 +192,11 @@ def stations(rings: Rings, spacing: float) -> Stations:
     total = along[np.append(first[1:], len(points)) - 1] - start
     number = (total / spacing / rings.turns).astype(np.intp) * rings.turns
     number[rings.turns == 1] = np.maximum(number[rings.turns == 1], 1)
+    number[rings.open] = np.rint(total / spacing)[rings.open]
+    half = np.where(rings.open, total / np.maximum(number, 1) / 2, 0.0)
     ring = np.repeat(np.arange(len(first)), number)
     share = np.arange(len(ring)) - np.repeat(np.cumsum(number) - number, number)
-    at = rings.offset[ring] + share * (total / np.maximum(number, 1))[ring]
+    at = (rings.offset + half)[ring] + share * (total / np.maximum(number, 1))[ring]
     turn = (number // rings.turns)[ring]
 
     def where(offset: float) -> Array:

@@ -14,7 +14,7 @@ import shapely
 from numpy.typing import NDArray
 
 from batik_vector.geometry.fills.thinning import near_pairs, settled
-from batik_vector.geometry.maps.affine import Affine
+from batik_vector.geometry.maps.affine import IDENTITY, Affine
 from batik_vector.geometry.sampling import Array, Geometries, Indices
 
 ASIDE = 0.000371
@@ -24,16 +24,30 @@ AROUND = [(i, j) for i in (-2, -1, 0, 1, 2) for j in (-2, -1, 0, 1, 2)]
 """Translates that may come near the window, each by so many of the two translations."""
 
 
+class Group(NamedTuple):
+    """A wallpaper group, in mm.
+
+    Attributes:
+        operations: one of every class of its maps that translations of the repeat join, the identity first.
+        region: a fundamental region, convex: its images under all of these cover the cloth once.
+    """
+
+    operations: tuple[Affine, ...]
+    region: shapely.Polygon
+
+
 class Period(NamedTuple):
     """A repeat, in mm.
 
     Attributes:
         lattice: its two translations, rows of shape (2, 2); the first or the second parallel to its axis.
         pad: how far beyond the window of a repeat regions are told.
+        group: that its marks keep; None where translations are all.
     """
 
     lattice: Array
     pad: float
+    group: Group | None = None
 
     @property
     def window(self) -> Array:
@@ -69,16 +83,37 @@ class Period(NamedTuple):
         return settled(np.arange(len(points)), a[a != b], b[a != b])
 
     def images(self, points: Array, reach: float) -> tuple[Array, Indices]:
-        """Return points and their translates within ``reach`` of the box round them, and whose they are."""
+        """Return points and their images within ``reach`` of the box round them, and whose they are.
+
+        The points themselves come first.
+        """
+        if not len(points):
+            return points, np.empty(0, np.intp)
         low, high = points.min(axis=0) - reach, points.max(axis=0) + reach
         found, owner = [points], [np.arange(len(points))]
-        for i, j in AROUND:
-            if i or j:
-                moved = points + i * self.lattice[0] + j * self.lattice[1]
-                near = np.flatnonzero(((moved >= low) & (moved <= high)).all(axis=1))
-                found.append(moved[near])
-                owner.append(near)
+        for number, operation in enumerate(self.group.operations if self.group else (IDENTITY,)):
+            image = self.home(operation.at(points)) if number else points
+            for i, j in AROUND:
+                if number or i or j:
+                    moved = image + i * self.lattice[0] + j * self.lattice[1]
+                    near = np.flatnonzero(((moved >= low) & (moved <= high)).all(axis=1))
+                    found.append(moved[near])
+                    owner.append(near)
         return np.concatenate(found), np.concatenate(owner)
+
+    def home(self, points: Array) -> Array:
+        """Return points moved by translations into the window."""
+        moved = points.copy()
+        # The axis that the other translation leaves alone comes first.
+        for axis in (0, 1) if self.lattice[1, 0] == 0 else (1, 0):
+            times = np.floor((moved[:, axis] - ASIDE) / self.lattice[axis, axis])
+            moved -= times[:, None] * self.lattice[axis]
+        return moved
+
+    def apart_modulo(self, ways: Array) -> Array:
+        """Return ways, shape (n, 2), less the translation next to each."""
+        shares = np.rint(ways @ np.linalg.inv(self.lattice))
+        return np.asarray(ways - shares @ self.lattice)
 
     def clear(self, marks: Geometries, bare: float) -> NDArray[np.bool_]:
         """Return which marks stay so that none comes nearer to a translate of another than ``bare``."""

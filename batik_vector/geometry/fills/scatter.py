@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from batik_vector.geometry.fills.insets import Parts
 from batik_vector.geometry.fills.periodic import ASIDE, Period
@@ -14,12 +15,17 @@ ROUNDS, TRIES = 6, 2.0
 """How often places are tried, and how many for each square of the distance."""
 
 
-def scattered(parts: Parts, spacing: float, seed: int, period: Period | None = None) -> tuple[Array, Indices]:
+def scattered(
+    parts: Parts, spacing: float, seed: int, period: Period | None = None, onto_axes: bool = True
+) -> tuple[Array, Indices]:
     """Return places within parts, no two of a region nearer than the spacing, and the part of each.
 
     Dart throwing in rounds: of those tried in one round the earlier has its way. In a ground, one period is
-    thrown at.
+    thrown at; in one that keeps a group its region, and ``onto_axes`` says whether places may be moved onto
+    its mirrors.
     """
+    if period is not None and period.group is not None:
+        return _scattered_within(parts, spacing, seed, period, onto_axes)
     if period is not None:
         return _scattered_round(parts, spacing, seed, period)
     rng = np.random.default_rng(seed)
@@ -56,6 +62,40 @@ def _scattered_round(parts: Parts, spacing: float, seed: int, period: Period) ->
             kept = period.apart(points, spacing)
             points, part = points[kept], part[kept]
     return points, part
+
+
+def _scattered_within(
+    parts: Parts, spacing: float, seed: int, period: Period, onto_axes: bool
+) -> tuple[Array, Indices]:
+    """Return places within parts and the region of a group, no two images nearer than the spacing."""
+    # What keeps groups is imported once a ground has one.
+    from batik_vector.geometry.fills.symmetric import settled_places
+
+    assert period.group is not None
+    rng = np.random.default_rng(seed)
+    tree, region = shapely.STRtree(parts.shapes), period.group.region
+    shapely.prepare(region)
+    low, high = np.split(np.array(region.bounds), 2)
+    count = int(np.ceil(TRIES * np.prod(high - low) / spacing**2))
+    points, none = np.empty((0, 2)), np.zeros(count, np.intp)
+    for _ in range(2 * ROUNDS):
+        tried = low + rng.random((count, 2)) * (high - low)
+        free = ~np.isin(_cells(tried, none, spacing), _cells(points, none[:1], spacing))
+        free &= shapely.contains_xy(region, tried[:, 0], tried[:, 1])
+        free[free] = _within(tree, tried[free])
+        points = np.concatenate([points, tried[free]])
+        points, _ = settled_places(points, np.arange(len(points)), spacing, period, onto_axes)
+        # What was moved may lie nearer to an edge.
+        points = points[_within(tree, points)]
+    inside, part = tree.query(shapely.points(points), predicate="within")
+    return points[inside], part
+
+
+def _within(tree: shapely.STRtree, points: Array) -> NDArray[np.bool_]:
+    """Return which points lie within the shapes of a tree."""
+    found = np.zeros(len(points), bool)
+    found[tree.query(shapely.points(points), predicate="within")[0]] = True
+    return found
 
 
 def _cells(points: Array, part: Indices, spacing: float) -> Indices:

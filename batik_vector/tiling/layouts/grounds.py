@@ -113,8 +113,9 @@ class Pack(Scattered):
 class FreeGround(Layout):
     """No motif: the marks of ``fill_with``, in all of the repeat that earlier placements leave free.
 
-    They keep their margin to what lies there, and go on over the seam. Rows are drawn apart or aslant by so
-    much that they close on the repeat, by 5 % at most.
+    They keep their margin to what lies there, go on over the seam, and keep the symmetry of the repeat where
+    what lies there does. Rows at an angle keep to translations: they are drawn apart or aslant by so much
+    that they close on the repeat, by 5 % at most.
     """
 
     spreads: ClassVar[bool] = False
