@@ -197,6 +197,18 @@ def test_a_tossed_ground_has_no_thinner_strip_along_the_seam() -> None:
     assert beside.sum() / strip == pytest.approx((~beside).sum() / (54 * 44 - np.pi * 25), rel=0.15)
 
 
+@pytest.mark.parametrize("lattice", LATTICES.values(), ids=LATTICES)
+def test_rows_that_run_on_over_the_repeat_leave_no_lane_bare(lattice: Lattice) -> None:
+    fill = Cecek(follow=Rows.CONTOUR)
+    motif = np.array([shapely.Point(20, 20).buffer(4)], dtype=object)
+    dots = shapely.STRtree(around(laid(fill, motif, lattice), lattice, 1))
+    x, y = np.meshgrid(np.arange(0.5, lattice[0][0] / 1000), np.arange(0.5, lattice[1][1] / 1000))
+    places = shapely.points(x.ravel(), y.ravel())
+    _, bare = dots.query_nearest(places, return_distance=True, all_matches=False)
+    near = shapely.STRtree(around(motif, lattice)).query(places, predicate="dwithin", distance=3.0)[0]
+    assert np.delete(bare, near).max() < 1.5 * fill.spacing
+
+
 RECIPE = """
 [ink.light]
 width = 0.8

@@ -11,6 +11,7 @@ import shapely
 from batik_vector.geometry.fills.bodies import bodies, strokes
 from batik_vector.geometry.fills.insets import Parts, inset, levels, opened, rings_of, stations
 from batik_vector.geometry.fills.periodic import Period
+from batik_vector.geometry.fills.symmetric import settled_places
 from batik_vector.geometry.fills.thinning import by_length, clear, thinned
 from batik_vector.geometry.sampling import Array, Geometries, Indices
 
@@ -59,8 +60,6 @@ def along(
         ranks += int(at.rank.max(initial=0)) + 1
     places, of = np.concatenate(points), np.concatenate(region)
     if period is not None and period.group is not None:
-        from batik_vector.geometry.fills.symmetric import settled_places
-
         places, left = settled_places(places, np.concatenate(rank), CROWDED * spacing, period, onto_axes)
         return places, of[left]
     kept = thinned(places, of, CROWDED * spacing, np.concatenate(rank))
@@ -103,7 +102,7 @@ def bands(
         rings, of = shapely.get_rings(room.shapes, return_index=True)
         # Bands of a ground that keeps a group are cut to its region later.
         if period is not None and period.group is None:
-            own = period.rings(rings, reach + number * spacing)
+            own, _ = period.rings(rings, reach + number * spacing)
             rings, of = rings[own], of[own]
         kept = clear(rings, room.region[of], (spacing + width) / 2 * narrow, by_length(rings))
         marks.append(bodies(rings[kept], width * narrow, tolerance))

@@ -9,7 +9,8 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from batik_vector.geometry.fills.periodic import Period
+from batik_vector.geometry.fills.periodic import ASIDE, Period
+from batik_vector.geometry.fills.symmetric import pieces
 from batik_vector.geometry.regions import oriented
 from batik_vector.geometry.sampling import Array, Geometries, Indices
 
@@ -115,17 +116,25 @@ def rings_of(
     """
     rings, part = shapely.get_rings(parts.shapes, return_index=True)
     if period is not None:
-        if period.group is not None:
-            # What keeps groups is imported once a ground has one.
-            from batik_vector.geometry.fills.symmetric import pieces
-
-            rings, part = pieces(rings, part, parts.shapes, period.group.region)
-        else:
-            own = period.rings(rings, reach)
-            rings, part = rings[own], part[own]
+        rings, part = _of_ground(rings, part, parts, period, reach)
     cut = shapely.get_type_id(rings) == shapely.GeometryType.LINESTRING
     closed = _begun(rings[~cut], centres[parts.region[part[~cut]]], part[~cut], turns, period)
     return closed if not cut.any() else _joined(closed, rings[cut], part[cut])
+
+
+def _of_ground(
+    rings: Geometries, part: Indices, parts: Parts, period: Period, reach: float
+) -> tuple[Geometries, Indices]:
+    """Return of the rings of a ground each once, and the part of each; what runs on is cut off."""
+    if period.group is not None:
+        return pieces(rings, part, parts.shapes, period.group.region)
+    own, broad = period.rings(rings, reach)
+    if not broad.any():
+        return rings[own], part[own]
+    wide, high = period.window.tolist()
+    window = shapely.box(ASIDE, ASIDE, wide + ASIDE, high + ASIDE)
+    cut, of = pieces(rings[broad], part[broad], parts.shapes, window)
+    return np.concatenate([rings[own], cut]), np.concatenate([part[own], of])
 
 
 def _begun(rings: Geometries, centre: Array, part: Indices, turns: int, period: Period | None) -> Rings:

@@ -58,18 +58,22 @@ class Period(NamedTuple):
         """Return which points, shape (n, 2), lie in the window."""
         return np.asarray(((points >= ASIDE) & (points < self.window + ASIDE)).all(axis=1))
 
-    def rings(self, rings: Geometries, reach: float) -> NDArray[np.bool_]:
-        """Return which rings lie about a middle in the window, and hang on nothing beyond the pad.
+    def rings(self, rings: Geometries, reach: float) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+        """Return which rings lie about a middle in the window and hang on nothing beyond the pad.
+
+        Returned besides is which are so broad that none of their translates does: only what of them lies in
+        the window is sure, and it goes on in the next repeat.
 
         Args:
             rings: that keep ``reach`` from the edges of their regions.
             reach: in mm.
         """
-        bounds = shapely.bounds(rings)
-        most = self.pad - 1.05 * reach
-        inside = (bounds[:, :2] > -most) & (bounds[:, 2:] < self.window + most)
         middles = shapely.get_coordinates(shapely.centroid(shapely.polygons(rings)))
-        return np.asarray(inside.all(axis=1) & self.owns(middles))
+        way = np.tile(self.home(middles) - middles, 2)
+        bounds = shapely.bounds(rings) + way
+        most = self.pad - 1.05 * reach
+        inside = ((bounds[:, :2] > -most) & (bounds[:, 2:] < self.window + most)).all(axis=1)
+        return inside & self.owns(middles), np.logical_not(inside)
 
     def apart(self, points: Array, least: float) -> NDArray[np.bool_]:
         """Return which of points stay so that none lie nearer than ``least``, over the seam too.

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from batik_vector.geometry.fills.insets import Parts
 from batik_vector.geometry.fills.periodic import ASIDE, Period
+from batik_vector.geometry.fills.symmetric import settled_places
 from batik_vector.geometry.fills.thinning import thinned
 from batik_vector.geometry.sampling import Array, Indices
 
@@ -68,9 +69,6 @@ def _scattered_within(
     parts: Parts, spacing: float, seed: int, period: Period, onto_axes: bool
 ) -> tuple[Array, Indices]:
     """Return places within parts and the region of a group, no two images nearer than the spacing."""
-    # What keeps groups is imported once a ground has one.
-    from batik_vector.geometry.fills.symmetric import settled_places
-
     assert period.group is not None
     rng = np.random.default_rng(seed)
     tree, region = shapely.STRtree(parts.shapes), period.group.region
