@@ -206,7 +206,7 @@ def test_importing_is_cheap(statement: str) -> None:
 UNUSED = (
     # The world outside, and what other formats and faulty recipes need.
     "ssl socket http.client urllib.request hashlib secrets tempfile",
-    "pydantic annotated_types tomlkit tqdm cairosvg ezdxf pikepdf svgwrite.data.svgparser",
+    "numpy.ma pydantic annotated_types tomlkit tqdm cairosvg ezdxf pikepdf svgwrite.data.svgparser",
     # Cloths, borders, grounds and reports of a recipe that has none.
     "batik_vector.compiling.borders batik_vector.tiling.borders.bands",
     "batik_vector.tiling.cloth.yardage batik_vector.tiling.cloth.field",

@@ -18,6 +18,7 @@ from batik_vector.certificate.drawing import Borders, InkDrawing
 from batik_vector.certificate.report import EdgeStretch, Kind, Limits, Measures, SeamFault
 from batik_vector.certificate.seam import EDGE_NAMES, Seam, nearest_distance, traces
 from batik_vector.certificate.shifts import Events
+from batik_vector.geometry.congruence import distinct
 from batik_vector.tiling.torus.seams import Intervals, inside, joined, symmetric_difference
 from batik_vector.units import format_mm
 from batik_vector.values import frozen
@@ -51,12 +52,12 @@ class Crossings:
         """Where the borders of both edges meet."""
         near, far = (_ends(covered, self.seam.length) for covered in (self.here, self.there))
         both = np.intersect1d(2 * near.along + near.sort, 2 * far.along + far.sort)
-        return np.unique(both // 2)
+        return distinct(both // 2)
 
     def along(self, limit: float) -> list[EdgeStretch]:
         """Return what of either edge alone is covered on purpose, longer than a limit (mm)."""
         seam, per_mm = self.seam, self.seam.frame.per_mm
-        cuts = np.unique(np.concatenate([self.here.ravel(), self.there.ravel(), self.breaks.ravel()]))
+        cuts = distinct(np.concatenate([self.here.ravel(), self.there.ravel(), self.breaks.ravel()]))
         middle = (cuts[1:] + cuts[:-1]) / 2
         near, far, broken = (inside(middle, each) for each in (self.here, self.there, self.breaks))
         found = []

@@ -15,6 +15,7 @@ import shapely
 from batik_vector.artwork import Geometries
 from batik_vector.certificate.drawing import Drawing, Frame
 from batik_vector.certificate.report import Kind, SeamFault
+from batik_vector.geometry.congruence import distinct
 from batik_vector.tiling.torus.torus import Window, wrap
 from batik_vector.units import format_mm
 
@@ -60,7 +61,7 @@ def _between(
     if not len(a):
         return here[:0]
     one, other = (
-        shapely.union_all(shapely.buffer(side[np.unique(rows)], reach / 2, quad_segs=QUADRANT))
+        shapely.union_all(shapely.buffer(side[distinct(rows)], reach / 2, quad_segs=QUADRANT))
         for side, rows in ((here, a), (there, b))
     )
     both = shapely.intersection(shapely.intersection(one, other), frame.window.box)

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from batik_vector.certificate.report import Kind, SeamFault
 from batik_vector.certificate.seam import EDGE_NAMES, Seam
+from batik_vector.geometry.congruence import distinct
 from batik_vector.units import format_mm
 from batik_vector.values import frozen
 
@@ -65,7 +66,7 @@ def agreeing_shift(near: Events, far: Events, seam: Seam) -> int | None:
     before = _agreeing(near, far, 0, seam.length, reach)
     if before >= SHARE / 2:
         return None
-    voters = np.unique(np.linspace(0, len(near.along) - 1, VOTERS).astype(int))
+    voters = distinct(np.linspace(0, len(near.along) - 1, VOTERS).astype(int))
     shifts = near.along[voters][:, None] - far.along[None, :]
     shifts = shifts[near.sort[voters][:, None] == far.sort[None, :]] % seam.length
     if not len(shifts):

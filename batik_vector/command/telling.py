@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -26,10 +27,13 @@ def counted(count: int, what: str) -> str:
 
 @contextmanager
 def stages(quiet: bool) -> Iterator[Callable[[str], None]]:
-    """Show the stage of work that takes long."""
+    """Show the stage of work that takes long, on a terminal."""
+    if quiet or not sys.stderr.isatty():
+        yield lambda stage: None
+        return
     from tqdm import tqdm
 
-    with tqdm(bar_format="{desc} {elapsed}", delay=1, disable=quiet or None, leave=False) as bar:
+    with tqdm(bar_format="{desc} {elapsed}", delay=1, leave=False) as bar:
         yield lambda stage: bar.set_description_str(stage)
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,6 +18,10 @@ if TYPE_CHECKING:
     from batik_vector.geometry.continuations import Edges
     from batik_vector.geometry.inside import Box
     from batik_vector.geometry.known import Known
+
+PATH_POINTS = 400_000
+"""Points in one path at most. A point takes up to 24 characters, and libxml2, which many readers use,
+refuses an attribute longer than 10 million."""
 
 MOVE, LINE, CONTROL, PULL, CURVE = range(5)
 """What a point is: where a ring begins, the end of a line, and the three points of a cubic Bézier."""
@@ -91,6 +97,57 @@ def curved(outlines: Outlines, tolerance: float, edges: Edges, page: Box, known:
     used = kinds != 255
     before = np.r_[0, np.cumsum(used.sum(axis=1))]
     return Strokes(points[used], kinds[used], before[rank], outlines.marks, outlines.closed)
+
+
+def begins_block(drawn: Strokes, before: int, full: int) -> NDArray[np.bool_]:
+    """Return which marks begin a block: those in which another ``full`` points are reached.
+
+    Args:
+        drawn: the strokes.
+        before: how many points of the layer came before them.
+        full: points of a block.
+    """
+    ends = before + drawn.rings[drawn.marks]
+    return np.asarray(-(-ends[:-1] // full) * full < ends[1:])
+
+
+def blocks(fresh: NDArray[np.bool_]) -> Iterator[tuple[int, int]]:
+    """Yield the first mark of each block and the one behind its last; a first block may have begun before."""
+    cuts = np.flatnonzero(fresh).tolist()
+    return pairwise(sorted({0, *cuts, len(fresh)}))
+
+
+def some(drawn: Strokes, first: int, last: int) -> Strokes:
+    """Return the marks from ``first`` to before ``last``."""
+    r0, r1 = drawn.marks[first], drawn.marks[last]
+    p0, p1 = drawn.rings[r0], drawn.rings[r1]
+    return Strokes(
+        drawn.points[p0:p1],
+        drawn.kinds[p0:p1],
+        drawn.rings[r0 : r1 + 1] - p0,
+        drawn.marks[first : last + 1] - r0,
+        drawn.closed[r0:r1],
+    )
+
+
+def blocks_of(
+    drawn: Strokes, before: int, going_on: bool, unfinished: bool
+) -> Iterator[tuple[Strokes, bool]]:
+    """Yield strokes in blocks of many marks each, and whether a path begins with them.
+
+    Args:
+        drawn: the strokes of a piece of a layer.
+        before: how many points of the layer came before them.
+        going_on: whether the first mark is the rest of the last one before.
+        unfinished: whether more of the last mark may come.
+    """
+    fresh = begins_block(drawn, before, PATH_POINTS)
+    if going_on:
+        fresh[0] = False
+    if unfinished and (len(fresh) > 1 or not going_on):
+        fresh[-1] = True
+    for first, last in blocks(fresh):
+        yield some(drawn, first, last), bool(fresh[first])
 
 
 class Pen:

@@ -18,11 +18,9 @@ from __future__ import annotations
 import re
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator, Sequence
-from itertools import pairwise
 from typing import Any, BinaryIO
 
 import numpy as np
-from numpy.typing import NDArray
 
 from batik_vector.artwork import Ink, Overlap, Page, Plate
 from batik_vector.export import light_svgwrite
@@ -43,7 +41,18 @@ from batik_vector.export.numbers import (
 from batik_vector.export.options import Curves, Profile, SvgOptions
 from batik_vector.export.palette import hex_colour, xml_label
 from batik_vector.export.provenance import NAMESPACE, xml_fields
-from batik_vector.export.strokes import CONTROL, CURVE, LINE, MOVE, Pen, Strokes
+from batik_vector.export.strokes import (
+    CONTROL,
+    CURVE,
+    LINE,
+    MOVE,
+    Pen,
+    Strokes,
+    begins_block,
+    blocks,
+    blocks_of,
+    some,
+)
 from batik_vector.export.walk import Order, Outlines, in_memory, walk
 from batik_vector.geometry.outlines import Index
 from batik_vector.units import STEPS_PER_MM, format_mm
@@ -51,9 +60,6 @@ from batik_vector.units import STEPS_PER_MM, format_mm
 INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"
 SODIPODI = "http://sodipodi.sourceforge.net/DTD/sodipodi-0.dtd"
 
-PATH_POINTS = 400_000
-"""Points in one path at most. A point takes up to 24 characters, and libxml2, which many readers use,
-refuses an attribute longer than 10 million."""
 AT_ONCE = 50_000
 """Points spelled at once, about. What stands around them then stays in the processor's cache, and the system
 need not find fresh memory for every array, which took a quarter of the time of writing."""
@@ -197,8 +203,8 @@ class _SvgSurface:
     def _write_paths(self, drawn: Strokes, names: Sequence[str], unfinished: bool) -> None:
         """Write a path for each mark; the last is left open where it is unfinished."""
         if self._unfinished:
-            self._sink.write(path_data(_some(drawn, 0, 1)))
-            drawn, names = _some(drawn, 1, len(drawn.marks) - 1), names[1:]
+            self._sink.write(path_data(some(drawn, 0, 1)))
+            drawn, names = some(drawn, 1, len(drawn.marks) - 1), names[1:]
         if len(names):
             self._write_whole(drawn, self._ends(names))
         if not unfinished:
@@ -206,11 +212,11 @@ class _SvgSurface:
 
     def _write_whole(self, drawn: Strokes, ends: Characters) -> None:
         """Write a path for each mark with the end that is meant for it, and leave the last one open."""
-        for first, last in _blocks(_begins_block(drawn, 0, AT_ONCE)):
+        for first, last in blocks(begins_block(drawn, 0, AT_ONCE)):
             self._close()
             between = beside(last - first - 1, ends[first : last - 1], PATH)
             self._sink.write(PATH)
-            self._sink.write(path_data(_some(drawn, first, last), between))
+            self._sink.write(path_data(some(drawn, first, last), between))
             self._path_end = text(ends[last - 1 : last])
 
     def _ends(self, names: Sequence[str]) -> Characters:
@@ -222,49 +228,13 @@ class _SvgSurface:
 
     def _write_blocks(self, drawn: Strokes, unfinished: bool) -> None:
         """Write paths of many marks each; the last is left open, for more marks may come."""
-        fresh = _begins_block(drawn, self._points, PATH_POINTS)
-        if self._unfinished:
-            fresh[0] = False
-        if unfinished and (len(fresh) > 1 or not self._unfinished):
-            fresh[-1] = True
-        for first, last in _blocks(fresh):
-            if fresh[first]:
+        for block, fresh in blocks_of(drawn, self._points, self._unfinished, unfinished):
+            if fresh:
                 self._close()
                 self._sink.write(PATH)
                 self._path_end = END
-            self._sink.write(path_data(_some(drawn, first, last)))
+            self._sink.write(path_data(block))
         self._points += len(drawn.points)
-
-
-def _begins_block(drawn: Strokes, before: int, full: int) -> NDArray[np.bool_]:
-    """Return which marks begin a block: those in which another ``full`` points are reached.
-
-    Args:
-        drawn: the strokes.
-        before: how many points of the layer came before them.
-        full: points of a block.
-    """
-    ends = before + drawn.rings[drawn.marks]
-    return np.asarray(-(-ends[:-1] // full) * full < ends[1:])
-
-
-def _blocks(fresh: NDArray[np.bool_]) -> Iterator[tuple[int, int]]:
-    """Yield the first mark of each block and the one behind its last; a first block may have begun before."""
-    cuts = np.flatnonzero(fresh).tolist()
-    return pairwise(sorted({0, *cuts, len(fresh)}))
-
-
-def _some(drawn: Strokes, first: int, last: int) -> Strokes:
-    """Return the marks from ``first`` to before ``last``."""
-    r0, r1 = drawn.marks[first], drawn.marks[last]
-    p0, p1 = drawn.rings[r0], drawn.rings[r1]
-    return Strokes(
-        drawn.points[p0:p1],
-        drawn.kinds[p0:p1],
-        drawn.rings[r0 : r1 + 1] - p0,
-        drawn.marks[first : last + 1] - r0,
-        drawn.closed[r0:r1],
-    )
 
 
 def furniture(page: Page, options: SvgOptions) -> str:

@@ -397,7 +397,8 @@ def _covers(tree: shapely.STRtree, points: Geometries) -> tuple[Indices, Indices
 
 def _some(count: int, most: int) -> Indices:
     """Return the numbers of some of ``count`` things, evenly spaced."""
-    return np.unique(np.linspace(0, count - 1, min(count, most)).astype(np.intp))
+    places = np.linspace(0, count - 1, min(count, most)).astype(np.intp)
+    return places[np.diff(places, prepend=-1) > 0]
 
 
 def _about(count: float) -> str:

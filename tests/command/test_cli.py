@@ -154,16 +154,17 @@ def test_check_exits_with_1_where_the_work_has_faults(monkeypatch: pytest.Monkey
 
 
 class _NoCairo:
-    """What importing cairosvg comes to where the system lacks cairo."""
+    """What importing cairocffi comes to where the system lacks cairo."""
 
     @staticmethod
     def find_spec(name: str, *_: object) -> None:
-        if name == "cairosvg":
+        if name == "cairocffi":
             raise OSError('no library called "cairo-2" was found')
 
 
 def test_without_cairo_all_but_the_png_is_written(desk: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.delitem(sys.modules, "cairosvg", raising=False)
+    for name in ("cairosvg", "cairocffi"):
+        monkeypatch.delitem(sys.modules, name, raising=False)
     monkeypatch.setattr(sys, "meta_path", [_NoCairo, *sys.meta_path])
     result = call("compile", "k.toml", "-f", "svg,png", "--json")
     assert result.exit_code == 2

@@ -28,6 +28,7 @@ from batik_vector.export import (
     pdf,
     png,
     render,
+    strokes,
     svg,
     write_artwork,
     write_page,
@@ -93,7 +94,7 @@ def crowd(count: int = 60) -> Artwork:
 def test_paths_of_many_marks_are_parted_at_the_same_places(
     monkeypatch: pytest.MonkeyPatch, rings: int
 ) -> None:
-    monkeypatch.setattr(svg, "PATH_POINTS", 500)
+    monkeypatch.setattr(strokes, "PATH_POINTS", 500)
     options = SvgOptions(profile="compact")  # type: ignore[arg-type]
     whole = svg.render(crowd(), options)
     assert whole.count(b"<path ") > 5
@@ -128,7 +129,7 @@ def test_a_polygon_in_pieces_is_one_path() -> None:
 def test_a_polygon_longer_than_a_path_is_parted_from_others_the_same_in_pieces(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(svg, "PATH_POINTS", 90)
+    monkeypatch.setattr(strokes, "PATH_POINTS", 90)
     holes = [shapely.box(x + 1, 1, x + 3, 9) for x in range(0, 90, 4)]
     comb = shapely.difference(shapely.box(0, 0, 92, 10), shapely.union_all(holes))
     layer = Layer(Ink("wax", "#f4efe2"), geometries(disc(50, 50, 8), comb, disc(20, 50, 8)))

@@ -9,10 +9,10 @@ from PIL import Image
 
 from batik_vector.artwork import Artwork, Cell
 from batik_vector.errors import ExportError, UnsupportedByFormatError
-from batik_vector.export import png
-from batik_vector.export.options import PngOptions
+from batik_vector.export import png, svg
+from batik_vector.export.options import PngOptions, Profile, SvgOptions
 
-from .drawings import area_of, sample, stacked
+from .drawings import InPieces, area_of, sample, stacked
 
 
 def picture(artwork: Artwork, **options: object) -> Image.Image:
@@ -35,6 +35,30 @@ def test_colours_cover_what_the_artwork_says() -> None:
     assert 5 < near(soga) < 40
     # Upright: the stem lies at the foot of the page.
     assert (np.abs(pixels[290] - soga).sum(axis=1) < 60).sum() > 300
+
+
+@pytest.mark.parametrize("artwork", [sample(), stacked()])
+@pytest.mark.parametrize("cloth", [True, False])
+def test_it_is_to_the_pixel_what_cairosvg_makes_of_our_svg(artwork: Artwork, cloth: bool) -> None:
+    import cairosvg
+
+    ours = picture(artwork, dpi=100, cloth=cloth)
+    drawing = svg.render(artwork, SvgOptions(profile=Profile.COMPACT, cloth=cloth, order=False))
+    drawing = drawing.replace(b" viewBox=", b' preserveAspectRatio="none" viewBox=', 1)
+    width, height = ours.size
+    data = cairosvg.svg2png(bytestring=drawing, output_width=width, output_height=height)
+    assert np.array_equal(np.asarray(ours), np.asarray(Image.open(io.BytesIO(data))))
+
+
+def test_a_cloth_in_pieces_is_shown_as_its_marks_lie() -> None:
+    sink = io.BytesIO()
+    png.write(InPieces(sample(), 3), sink, PngOptions(dpi=254))
+    image = Image.open(sink)
+    whole, pieces = (np.asarray(each.convert("RGB"), float) for each in (picture(sample(), dpi=254), image))
+    # Borders have fewer shades, and nothing else differs.
+    assert np.abs(whole - pieces).mean() < 1
+    assert (np.abs(whole - pieces).max(axis=2) > 40).mean() < 0.01
+    assert image.info["dpi"] == pytest.approx((254, 254), abs=0.02)
 
 
 def test_bleed_is_not_shown() -> None:

@@ -9,7 +9,7 @@ import pytest
 import shapely
 
 from batik_vector.artwork import Artwork, Cell, Ink, Layer
-from batik_vector.export import svg
+from batik_vector.export import strokes, svg
 from batik_vector.export.options import Curves, Profile, SvgOptions
 from batik_vector.geometry.outlines import MM, Outlines, of_polylines
 
@@ -98,7 +98,7 @@ def test_compact_has_one_path_per_kind_of_mark() -> None:
 
 
 def test_compact_breaks_paths_that_readers_refuse(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(svg, "PATH_POINTS", 50)
+    monkeypatch.setattr(strokes, "PATH_POINTS", 50)
     artwork = sample()
     layers = svg_layers(written(artwork, profile=Profile.COMPACT))
     assert len(list(layers["1 wax"].iter(f"{SVG}path"))) == 2

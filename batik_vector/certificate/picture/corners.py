@@ -13,6 +13,7 @@ from batik_vector.certificate.drawing import Drawing, Edges
 from batik_vector.certificate.picture.rim import ROUNDING, Shown, Spans, off_chord, turns
 from batik_vector.certificate.report import Limits
 from batik_vector.certificate.seam import Seam
+from batik_vector.geometry.congruence import distinct
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -106,7 +107,7 @@ class Corners:
                 mine &= (at > seam.near + self.limit) & (at < seam.far - self.limit)
                 found += _corners(ink.rings, np.flatnonzero(mine))
             by = np.degrees(np.abs(np.concatenate(found))) if found else np.empty(0)
-            self._inner = np.unique(np.round(by[by > 5], 2))
+            self._inner = distinct(np.round(by[by > 5], 2))
         return self._inner
 
 

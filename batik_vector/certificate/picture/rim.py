@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from batik_vector.certificate.drawing import SNAP
 from batik_vector.certificate.picture.bodies import Bodies
 from batik_vector.certificate.seam import Seam
+from batik_vector.geometry.congruence import distinct
 from batik_vector.values import frozen
 
 Floats = NDArray[np.float64]
@@ -191,7 +192,7 @@ def shown(rim: Rim, seam: Seam, slack: float, hair: float) -> tuple[Shown, Shown
     runs = np.array([paint.runs for paint in rim.bodies.paints], bool)
     if any(runs[rim.bodies.paint[side[0].body]].any() for side in sides):
         cuts = np.concatenate([cuts, np.linspace(0.0, seam.length, RAMP_PARTS + 1)])
-    cuts = np.unique(cuts)
+    cuts = distinct(cuts)
     cuts = cuts[np.concatenate([[True], np.diff(cuts) > ROUNDING])]
     found = []
     for far, (spans, inner, beyond) in zip((False, True), sides, strict=True):

@@ -22,6 +22,7 @@ from batik_vector.certificate.symmetry.lattice import Matrix
 from batik_vector.certificate.symmetry.nearest_edges import Nearest, spread
 from batik_vector.certificate.symmetry.outline import Edges, Indices, Points, simplified
 from batik_vector.certificate.symmetry.same_places import SamePlaces
+from batik_vector.geometry.congruence import distinct
 from batik_vector.values import frozen
 
 FEW = 600
@@ -157,7 +158,7 @@ class Matcher:
         distance[alone] = 0
         alone = alone[~self._on_hairs(self.all[alone])]
         alone = alone[:: -(-len(alone) // MEASURED) or 1]
-        for kind in np.unique(self.all.kind[alone]):
+        for kind in distinct(self.all.kind[alone]):
             mine = alone[self.all.kind[alone] == kind]
             distance[mine] = self._alone(self.all.xy[mine] @ matrix.T + shift, int(kind))
         worst = int(distance.argmax())
@@ -173,7 +174,7 @@ class Matcher:
     def _fine(self) -> Indices:
         """The kinds that are drawn in hairs, of which every point counts."""
         thin = self._thin(self.few)
-        kinds = np.unique(self.few.kind)
+        kinds = distinct(self.few.kind)
         return kinds[[bool(thin[self.few.kind == kind].mean() > FINE) for kind in kinds]]
 
     def _on_hairs(self, samples: Samples) -> NDArray[np.bool_]:
@@ -198,7 +199,7 @@ class Matcher:
     def _ends(self) -> dict[int, shapely.STRtree]:
         """Where the centre lines of each kind end: the vertices that only one edge has."""
         found = {}
-        for kind in np.unique(self.edges.kind[self.edges.kind % 2 == 1]).tolist():
+        for kind in distinct(self.edges.kind[self.edges.kind % 2 == 1]).tolist():
             mine = self.edges.kind == kind
             vertices = np.concatenate([self.edges.begin[mine], self.edges.end[mine]])
             places, times = np.unique(vertices, axis=0, return_counts=True)
@@ -288,7 +289,7 @@ def _at(edges: Edges, row: Indices, part: NDArray[np.float64], short: float) -> 
 def _strewn(edges: Edges, count: int, short: float) -> Samples:
     """Return points spread evenly along each kind of edges, each kind with a fair number of them."""
     length = np.hypot(*(edges.end - edges.begin).T)
-    kinds = np.unique(edges.kind)
+    kinds = distinct(edges.kind)
     total = np.bincount(edges.kind, length)
     rows, parts = [], []
     for kind in kinds:

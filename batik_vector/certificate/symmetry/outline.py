@@ -14,6 +14,7 @@ import shapely
 from numpy.typing import NDArray
 
 from batik_vector.artwork import Cell, Geometries, Layer
+from batik_vector.geometry.congruence import distinct
 from batik_vector.geometry.regions import oriented
 from batik_vector.tiling.torus import overlay, seams
 from batik_vector.tiling.torus.torus import (
@@ -211,7 +212,7 @@ def _one_sided(areas: Geometries, cell: Cell, kind: int) -> Edges:
         length = cell.rows if axis == 0 else cell.columns
         here = seams.border(areas, axis, near)
         there = seams.rolled(seams.border(areas, axis, far), -shift, length)
-        cuts = np.unique(np.concatenate([here.ravel(), there.ravel()]))
+        cuts = distinct(np.concatenate([here.ravel(), there.ravel()]))
         odd = np.column_stack([cuts[:-1], cuts[1:]])
         middle = odd.mean(axis=1)
         inner = seams.inside(middle, here)

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from batik_vector.certificate.symmetry.lattice import Matrix, reduced
 from batik_vector.certificate.symmetry.operations import Pair, pair
 from batik_vector.certificate.symmetry.outline import Edges, Indices, Outline, Points, together
+from batik_vector.geometry.congruence import distinct
 from batik_vector.values import frozen
 
 FARTHEST = 24
@@ -48,7 +49,7 @@ def stripes(drawn: Outline, basis: Matrix, slack: float) -> Stripes | None:
     if np.abs(steps @ across).max() > slack / 4:
         return None
     frame = np.column_stack([way, upright])
-    parts = [_kind(edges, kind, frame, slack) for kind in np.unique(edges.kind)]
+    parts = [_kind(edges, kind, frame, slack) for kind in distinct(edges.kind)]
     if any(part is None for part in parts):
         return None
     found = [part for part in parts if part is not None]

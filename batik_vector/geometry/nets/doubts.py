@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from batik_vector.geometry.congruence import distinct
 from batik_vector.geometry.nets.cells import Mask, Places
 from batik_vector.geometry.nets.meetings import Events, Meetings, Rings, dot
 from batik_vector.geometry.outlines import Index
@@ -78,7 +79,7 @@ def _doubt_crowds(events: Events, nodes: Index, found: Mask) -> None:
     if not near.any():
         return
     # What they meet is not known by its edge: all that passes there is looked at.
-    crowd = np.unique(np.concatenate([_keys(events, one[near]), _keys(events, other[near])]))
+    crowd = distinct(np.concatenate([_keys(events, one[near]), _keys(events, other[near])]))
     keys = _keys(events, nodes)
     at = np.minimum(np.searchsorted(crowd, keys), len(crowd) - 1)
     found[events.edge[nodes[crowd[at] == keys]]] = True

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 import shapely
 
-from batik_vector.geometry.congruence import alike, same_points
+from batik_vector.geometry.congruence import alike, distinct, same_points
 from batik_vector.geometry.nets.bare import Stretches
 from batik_vector.geometry.nets.cells import Mask
 from batik_vector.geometry.nets.chains import Chains, chained, entangled
@@ -118,7 +118,7 @@ def _untangled(now: _Work, pairs: Index, unite: Unite) -> _Work | None:
     members = np.flatnonzero(gone)
     if not len(members) or len(members) * MOST > count:
         return None
-    groups = [members[label[members] == each] for each in np.unique(label[members])]
+    groups = [members[label[members] == each] for each in distinct(label[members])]
     bodies = [_placed(copies, group) for group in groups]
     whole, of = shapely.get_parts(unite(bodies), return_index=True)
     new = oriented(polygonal(whole))
@@ -129,7 +129,7 @@ def _untangled(now: _Work, pairs: Index, unite: Unite) -> _Work | None:
     shift = np.concatenate([copies.shift, np.zeros((len(new), 2), np.int64)])
     kept = (copies.own < copies.other) & ~gone[copies.own] & ~gone[copies.other]
     old = np.column_stack([copies.own[kept], copies.other[kept]])
-    beside = np.unique(copies.other[gone[copies.own]])
+    beside = distinct(copies.other[gone[copies.own]])
     beside = beside[~gone[beside]]
     others = np.concatenate([beside, count + np.arange(len(new))])
     bounds = np.vstack([shapely.bounds(_placed(copies, beside)).reshape(-1, 4), shapely.bounds(new)])
@@ -272,7 +272,7 @@ def _rings(down: _Down, chains: Chains, label: Index) -> tuple[Outlines, Index] 
     shells = np.flatnonzero(doubled >= 0)
     shells = shells[np.lexsort([-doubled[shells], of[shells]])]
     further = shells[1:][of[shells[1:]] == of[shells[:-1]]]
-    firsts = np.unique(of)
+    firsts = distinct(of)
     if (doubled[further] > 2 * way[further]).any() or len(shells) - len(further) != len(firsts):
         return None
     kept = np.ones(len(of), bool)

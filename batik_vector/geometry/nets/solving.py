@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 import shapely
 
-from batik_vector.geometry.congruence import alike
+from batik_vector.geometry.congruence import alike, distinct
 from batik_vector.geometry.nets.bare import Stretches, bare
 from batik_vector.geometry.nets.components import components
 from batik_vector.geometry.nets.meetings import Events, Rings, meetings
@@ -36,7 +36,7 @@ class Copies:
     def of(cls, shapes: Outlines, areas: Geometries, kind: Index, shift: Steps, pairs: Index) -> Copies:
         """Sort pairs, shape (k, 2), each given once."""
         own, other = np.concatenate([pairs, pairs[:, ::-1]]).T
-        if len(np.unique(kind)) == len(kind):
+        if len(distinct(kind)) == len(kind):
             # Nothing is like anything else, and any order will do.
             order = np.argsort(own * len(kind) + other)
         else:
@@ -50,7 +50,7 @@ class Copies:
 
     def sorts(self) -> tuple[Index, Index]:
         """Return one copy for each different surroundings, and for each copy which of those it is like."""
-        if len(np.unique(self.kind)) == len(self):
+        if len(distinct(self.kind)) == len(self):
             return np.arange(len(self)), np.arange(len(self))
         rows = np.column_stack([self.kind[self.other], self.shift[self.other] - self.shift[self.own]])
         itself = np.column_stack([self.kind, np.zeros((len(self), 2), np.int64)])

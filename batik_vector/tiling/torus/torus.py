@@ -129,6 +129,14 @@ def wrap(
     marks, names = marks[there], names[there]
     if not len(marks):
         return marks, names
+    which, shift = wrapping(marks, lattice, window, reach)
+    return translate(marks[which], shift), names[which]
+
+
+def wrapping(
+    marks: Geometries, lattice: Lattice, window: Window, reach: float = 0.0
+) -> tuple[NDArray[np.intp], Steps]:
+    """Return which marks :func:`wrap` moves where: (which, shift). None of them may be empty."""
     which, shift = translates(shapely.bounds(marks), lattice, window, reach)
     total = int(shapely.get_num_coordinates(marks)[which].sum())
     if total > MAX_WRAPPED:
@@ -136,7 +144,7 @@ def wrap(
             f"marks that reach over so many repeats have {total:,} vertices in one of them, past the "
             f"limit of {MAX_WRAPPED:,}: expected smaller marks, or a larger tile"
         )
-    return translate(marks[which], shift), names[which]
+    return which, shift
 
 
 def translates(

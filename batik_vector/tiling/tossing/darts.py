@@ -43,11 +43,14 @@ class Dice:
     """Uniform numbers in [0, 1), the same on every machine: the stream of Python's own generator."""
 
     def __init__(self, seed: int) -> None:
-        self._next = random.Random(seed).random
+        self._bytes = random.Random(seed).randbytes
 
     def __call__(self, count: int) -> Array:
         """Return the next numbers, shape (count,)."""
-        return np.array([self._next() for _ in range(count)], np.float64)
+        # As random.random() makes each of 53 of the generator's next 64 bits.
+        words = np.frombuffer(self._bytes(8 * count), "<u4").reshape(-1, 2)
+        high, low = words[:, 0] >> 5, words[:, 1] >> 6
+        return np.asarray((high * float(1 << 26) + low) / (1 << 53))
 
 
 @frozen
@@ -149,21 +152,19 @@ def thrown(
         batch = _batch(len(scatter), want)
         _spend(batch, scatter, tries, total)
         darts = _drawn(scatter, rules, dice, room, _shares(scatter, rules, want), batch)
-        marks = scatter.marks(darts)
-        fit = np.flatnonzero(scatter.clear(marks, spacing.distance, spacing.kin))
+        fit, marks = scatter.fitting(darts, spacing.distance, spacing.kin)
         most = AT_ONCE + len(scatter)
         batch = batch if len(fit) <= most else int(fit[most - 1]) + 1
-        fit = fit[:most]
-        fit = fit[scatter.compatible(marks.take(fit), spacing.distance, spacing.kin)]
-        fit = fit[ranks(darts.motif[fit]) < want[darts.motif[fit]]]
+        fit, marks = fit[:most], marks.take(slice(most))
+        both = scatter.compatible(marks, spacing.distance, spacing.kin)
+        both = both[ranks(darts.motif[fit[both]]) < want[darts.motif[fit[both]]]]
+        fit, more = fit[both], marks.take(both)
         total += batch
         missed = missed + batch if not len(fit) else batch - 1 - int(fit[-1])
         if len(fit):
-            more = marks.take(fit)
-            scatter.set(
-                scatter.poses.joined(darts.take(fit)), Field.joined([scatter.field, more]), spacing.kin
-            )
-            _give_away(room, scatter.torus.images(more, scatter.largest + spacing.kin), spacing, kinds)
+            before = len(scatter.there)
+            scatter.add(darts.take(fit), more, spacing.kin)
+            _give_away(room, scatter.there.take(slice(before, None)), spacing, kinds)
             want = wanted(scatter.poses)
     return total
 

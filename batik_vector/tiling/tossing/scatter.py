@@ -15,7 +15,7 @@ import shapely
 from batik_vector.artwork import Geometries
 from batik_vector.geometry.maps.affine import Affine
 from batik_vector.geometry.sampling import Array, Indices
-from batik_vector.tiling.torus.torus import Lattice, Window, wrap
+from batik_vector.tiling.torus.torus import Lattice, Window, translate, wrapping
 from batik_vector.tiling.tossing.marks import Complexes, Field, Flags, Kit, Poses
 
 
@@ -77,9 +77,10 @@ class Torus:
         """Return all translates of marks that come within ``reach`` of the window."""
         if not len(field):
             return field
-        shapes, index = wrap(field.shapes, np.arange(len(field)), self.lattice, self.window, reach)
-        shift = shapely.bounds(shapes)[:, :2] - shapely.bounds(field.shapes)[index, :2]
-        return field.take(index).shifted(np.rint(shift).astype(np.int64), shapes)
+        field = field.take(~shapely.is_empty(field.shapes))
+        index, shift = wrapping(field.shapes, self.lattice, self.window, reach)
+        near = field.take(index)
+        return near.shifted(shift, translate(near.shapes, shift))
 
 
 class Scatter:
@@ -118,35 +119,72 @@ class Scatter:
         self.there = Field.joined([images, self.torus.wrapped(self.taken, self.largest + reach)])
         self._tree = shapely.STRtree(self.there.shapes)
 
-    def gaps(
-        self, marks: Field, reach: float, own: Indices, rough: bool = False
-    ) -> tuple[Indices, Array, Indices]:
+    def add(self, poses: Poses, marks: Field, reach: float) -> None:
+        """Let further marks lie on the torus; ``reach`` is that of the last :meth:`set`."""
+        self.poses = self.poses.joined(poses)
+        more = marks.owned(len(self.field) + np.arange(len(marks)))
+        self.field = Field.joined([self.field, more])
+        self.there = Field.joined([self.there, self.torus.images(more, self.largest + reach)])
+        self._tree = shapely.STRtree(self.there.shapes)
+
+    def gaps(self, marks: Field, reach: float, own: Indices) -> tuple[Indices, Array, Indices]:
         """Return the gaps between marks and what lies within ``reach`` of them.
 
         Args:
             marks: to be, in the window.
             reach: longer gaps are left out; at most that of :meth:`set`.
             own: for each the mark it stands for, whose present place does not count.
-            rough: measure from disc to disc within marks: quicker, and a little too far.
 
         Returns:
             Which of the marks, how far (0 where they overlap), and the number of the mark that is there; -1
             for what was taken. The images of a mark under the symmetry come with its own number.
         """
-        i, j = self._tree.query(_boxes(marks.shapes, reach))
-        other = self.there.owners[j] != own[i]
-        i, j = i[other], j[other]
-        near = marks.apart(i, self.there, j) <= reach
-        i, j = i[near], j[near]
-        known = rough & np.isfinite(self.there.radii[j, 0])
+        i, j = self._others(_boxes(marks.shapes, reach), marks, reach, own)
+        gap = shapely.distance(marks.shapes[i], self.there.shapes[j])
+        return self._with_own(marks, reach, own, (i, gap, j))
+
+    def rough_gaps(self, poses: Poses, reach: float, own: Indices) -> tuple[Indices, Array, Indices]:
+        """Return gaps as :meth:`gaps` does, from disc to disc within marks: sooner, and a little too far."""
+        marks = self.kit.undrawn(poses, self.torus.stretch)
+        i, j = self._others(_round(marks, reach), marks, reach, own)
+        known = np.isfinite(self.there.radii[j, 0])
+        if self._images_meet(reach) or not known.all():
+            marks = self.marks(poses)
         gap = np.empty(len(i))
         gap[known] = np.maximum(marks.discs_apart(i[known], self.there, j[known]), 0)
         gap[~known] = shapely.distance(marks.shapes[i[~known]], self.there.shapes[j[~known]])
+        return self._with_own(marks, reach, own, (i, gap, j))
+
+    def _others(self, boxes: Geometries, marks: Field, reach: float, own: Indices) -> tuple[Indices, Indices]:
+        """Return which of some marks have which others there within reach, as their circles tell."""
+        i, j = self._tree.query(boxes)
+        other = self.there.owners[j] != own[i]
+        i, j = i[other], j[other]
+        near = marks.apart(i, self.there, j) <= reach
+        return i[near], j[near]
+
+    def _with_own(
+        self, marks: Field, reach: float, own: Indices, others: tuple[Indices, Array, Indices]
+    ) -> tuple[Indices, Array, Indices]:
+        """Return gaps to others, and those of each mark to its own images, as :meth:`gaps` does."""
+        i, gap, j = others
         mine, images = self.own_images(marks, reach)
         gap = np.concatenate([gap, shapely.distance(marks.shapes[mine], images)])
         which = np.concatenate([i, mine])
         near = gap <= reach
         return which[near], gap[near], np.concatenate([self.there.owners[j], own[mine]])[near]
+
+    def fitting(self, poses: Poses, distance: float, kin: float) -> tuple[Indices, Field]:
+        """Return which poses keep clear of everything, and the marks so: see :meth:`clear`.
+
+        Most that do not are told by their discs, and their outlines are never drawn.
+        """
+        undrawn = self.kit.undrawn(poses, self.torus.stretch)
+        i, j = self._tree.query(_round(undrawn, kin))
+        free = np.flatnonzero(self._by_discs(undrawn, i, j, distance, kin)[0])
+        marks = self.marks(poses.take(free))
+        clear = self.clear(marks, distance, kin)
+        return free[clear], marks.take(clear)
 
     def clear(self, marks: Field, distance: float, kin: float) -> Flags:
         """Return which marks keep clear of everything, their own images included.
@@ -156,22 +194,33 @@ class Scatter:
             distance: to be kept from all.
             kin: to be kept from marks of the same motif; no less than ``distance``.
         """
-        free = np.ones(len(marks), bool)
         i, j = self._tree.query(_boxes(marks.shapes, kin))
-        least = np.where(marks.kinds[i] == self.there.kinds[j], kin, distance)
-        open_ = marks.apart(i, self.there, j) <= least
-        i, j, least = i[open_], j[open_], least[open_]
-        free[i[marks.discs_apart(i, self.there, j) < least]] = False
-        open_ = free[i]
-        i, j, least = i[open_], j[open_], least[open_]
+        free, i, j, least = self._by_discs(marks, i, j, distance, kin)
         free[i[nearer(marks.shapes[i], self.there.shapes[j], least)]] = False
         mine, images = self.own_images(marks, kin)
         free[mine[nearer(marks.shapes[mine], images, kin)]] = False
         return free
 
+    def _by_discs(
+        self, marks: Field, i: Indices, j: Indices, distance: float, kin: float
+    ) -> tuple[Flags, Indices, Indices, Array]:
+        """Return which marks are clear as far as their discs tell, and the pairs that these leave open.
+
+        Pairs come with the distance that they are to keep.
+        """
+        free = np.ones(len(marks), bool)
+        least = np.where(marks.kinds[i] == self.there.kinds[j], kin, distance)
+        open_ = marks.apart(i, self.there, j) <= least
+        # The largest discs alone rule out most.
+        for apart in (marks.hearts_apart, marks.discs_apart):
+            i, j, least = i[open_], j[open_], least[open_]
+            free[i[apart(i, self.there, j) < least]] = False
+            open_ = free[i]
+        return free, i[open_], j[open_], least[open_]
+
     def own_images(self, marks: Field, reach: float) -> tuple[Indices, Geometries]:
         """Return the images of each mark, itself left out, whose boxes come within reach of it."""
-        if len(self.torus.operations) == 1 and 2 * self.largest + reach < self.torus.shortest:
+        if not self._images_meet(reach):
             return np.empty(0, np.intp), np.empty(0, dtype=object)
         images = self.torus.images(marks.owned(np.arange(len(marks))), self.largest + reach)
         there, here = shapely.bounds(images.shapes), shapely.bounds(marks.shapes)[images.owners]
@@ -181,6 +230,10 @@ class Scatter:
             & (there != here).any(axis=1)
         )
         return images.owners[near], images.shapes[near]
+
+    def _images_meet(self, reach: float) -> bool:
+        """Return whether any mark may come within reach of its own images."""
+        return len(self.torus.operations) > 1 or 2 * self.largest + reach >= self.torus.shortest
 
     def compatible(self, marks: Field, distance: float, kin: float) -> Indices:
         """Return which marks can all be set down, each going before those that come after it."""
@@ -210,6 +263,13 @@ class Scatter:
 def _boxes(shapes: Geometries, reach: float) -> Geometries:
     low_x, low_y, high_x, high_y = shapely.bounds(shapes).T
     return np.asarray(shapely.box(low_x - reach, low_y - reach, high_x + reach, high_y + reach), dtype=object)
+
+
+def _round(marks: Field, reach: float) -> Geometries:
+    """Return lines across the squares round the circles of marks, and further by reach: a tree sees those."""
+    by = (1 + 1j) * (marks.reach + reach)
+    ends = np.column_stack([marks.middles - by, marks.middles + by])
+    return np.asarray(shapely.linestrings(np.stack([ends.real, ends.imag], axis=-1)), dtype=object)
 
 
 def nearer(a: Geometries, b: Geometries, distance: float | Array) -> Flags:

@@ -14,7 +14,7 @@ import numpy as np
 
 from batik_vector.geometry.sampling import Array, Indices
 from batik_vector.tiling.tossing.darts import Dice, Rules
-from batik_vector.tiling.tossing.marks import Field, Flags, Poses
+from batik_vector.tiling.tossing.marks import Flags, Poses
 from batik_vector.tiling.tossing.scatter import Scatter
 
 CHOICES = 6
@@ -52,12 +52,11 @@ def settled(scatter: Scatter, rules: Rules, dice: Dice, distance: float, sweeps:
         movers = np.flatnonzero(dice(count) < MOVERS)
         index = np.repeat(movers, CHOICES)
         tried = _tried(scatter, rules, dice, index, FIRST_STEP * spacing * COOLING**sweep, COOLING**sweep)
-        marks = scatter.marks(tried)
-        push = _push(scatter, marks, index, distance, reach, spacing)
+        push = _push(scatter, tried, index, distance, reach, spacing)
         best = push.reshape(-1, CHOICES).argmin(axis=1)
         goes = best > 0
         chosen = (np.arange(len(movers)) * CHOICES + best)[goes]
-        _move(scatter, movers[goes], tried.take(chosen), marks.take(chosen), distance)
+        _move(scatter, movers[goes], tried.take(chosen), distance)
 
 
 def _tried(scatter: Scatter, rules: Rules, dice: Dice, index: Indices, step: float, heat: float) -> Poses:
@@ -78,13 +77,13 @@ def _tried(scatter: Scatter, rules: Rules, dice: Dice, index: Indices, step: flo
 
 
 def _push(
-    scatter: Scatter, marks: Field, index: Indices, distance: float, reach: float, spacing: float
+    scatter: Scatter, poses: Poses, index: Indices, distance: float, reach: float, spacing: float
 ) -> Array:
     """Return how hard each mark is pushed by those around it; infinitely where it comes too near to one."""
-    which, gap, there = scatter.gaps(marks, reach, index, rough=True)
+    which, gap, there = scatter.rough_gaps(poses, reach, index)
     soft = 0.3 * distance + 0.02 * spacing
-    alike = (there >= 0) & (scatter.field.kinds[there] == marks.kinds[which])
-    push = np.zeros(len(marks))
+    alike = (there >= 0) & (scatter.field.kinds[there] == poses.motif[which])
+    push = np.zeros(len(poses))
     np.add.at(push, which, np.where(alike, KIN_PUSH, 1.0) / (gap + soft) ** 2)
     push[which[_too_near(gap, distance)]] = np.inf
     return push
@@ -94,9 +93,9 @@ def _too_near(gap: Array, distance: float) -> Flags:
     return np.asarray(gap < distance if distance > 0 else gap <= 0)
 
 
-def _move(scatter: Scatter, movers: Indices, poses: Poses, marks: Field, distance: float) -> None:
+def _move(scatter: Scatter, movers: Indices, poses: Poses, distance: float) -> None:
     """Move marks all at once; those that run into one another stay where they were."""
-    before, field = scatter.poses, scatter.field
+    before, field, marks = scatter.poses, scatter.field, scatter.marks(poses)
     going = np.ones(len(movers), bool)
     while True:
         goers = movers[going]

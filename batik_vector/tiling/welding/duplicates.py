@@ -15,7 +15,7 @@ import shapely
 from numpy.typing import NDArray
 
 from batik_vector.artwork import Geometries
-from batik_vector.geometry.congruence import alike
+from batik_vector.geometry.congruence import alike, distinct
 from batik_vector.geometry.nets.components import components
 from batik_vector.tiling.torus.torus import Window
 
@@ -135,7 +135,7 @@ def _rejoined(
     stops = ends[highest[np.append(first[1:], len(members)) - 1], 2:]
     names_of = np.minimum.reduceat(names[owner[members]], first)
     kept, kept_names = [lines[~touched]], [names[~touched]]
-    for name in np.unique(names_of):
+    for name in distinct(names_of):
         mine = names_of == name
         strokes = shapely.linestrings(np.stack([begins[mine], stops[mine]], axis=1).astype(float))
         joined = shapely.get_parts(

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from batik_vector.artwork import Geometries, Ink
+from batik_vector.geometry.congruence import distinct
 from batik_vector.geometry.outlines import Index
 from batik_vector.tiling.welding.congruent import Areas, Copies, Repeated, Stock, together
 from batik_vector.tiling.welding.growth import grown, grown_on_grid, quad_segs
@@ -116,7 +117,7 @@ class Pile:
         """
         whole = self._cutting.taken(reach <= 0)
         shapes, rows, which = [_none()], [], []
-        for radius in np.unique(reach[reach > 0]).tolist():
+        for radius in distinct(reach[reach > 0]).tolist():
             mine = np.flatnonzero(reach == radius)
             used, row = self.stock.used(self._cutting.copies.taken(mine))
             rows.append(row + sum(map(len, shapes)))

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from batik_vector.artwork import Cell, DropAxis, Geometries
 from batik_vector.geometry import work
-from batik_vector.geometry.congruence import alike
+from batik_vector.geometry.congruence import alike, distinct
 from batik_vector.geometry.outlines import Index, runs
 from batik_vector.tiling.torus import overlay, seams
 from batik_vector.tiling.torus.remembered import Asked, as_array, identities, interned
@@ -146,7 +146,7 @@ class Torus:
                 coords[at, axis] = value
         if not moved.any():
             return lines
-        lines, which = lines.copy(), np.unique(owner[moved])
+        lines, which = lines.copy(), distinct(owner[moved])
         mine = np.isin(owner, which)
         lines[which] = shapely.set_coordinates(lines[which], coords[mine])
         lines[which] = shapely.remove_repeated_points(lines[which])

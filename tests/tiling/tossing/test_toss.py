@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import random
 from collections.abc import Sequence
 from fractions import Fraction
 
@@ -15,7 +16,8 @@ from batik_vector.errors import GeometryError, TooLargeError
 from batik_vector.geometry import work
 from batik_vector.geometry.maps.affine import Affine
 from batik_vector.tiling.layouts import Toss
-from batik_vector.tiling.tossing.marks import Field
+from batik_vector.tiling.tossing.darts import Dice
+from batik_vector.tiling.tossing.marks import Field, Kit, Poses
 from batik_vector.tiling.tossing.scatter import Torus, in_steps
 from batik_vector.tiling.tossing.toss import Marks, Tossed, toss
 from tests.thorough import examples, long
@@ -319,3 +321,24 @@ def test_tries_that_never_end_are_refused_with_their_number(monkeypatch: pytest.
     spec = Toss(distance=1.0, tries=100_000)
     with pytest.raises(TooLargeError, match=r"tries = 100,000: after [\d,]+ darts"), work.account():
         toss(spec, marks(BEAN), torus(), NOTHING, 1)
+
+
+def test_the_dice_are_pythons_own() -> None:
+    one, dice = random.Random(7), Dice(7)
+    thrown = np.concatenate([dice(count) for count in (1, 0, 5, 300)])
+    assert thrown.tolist() == [one.random() for _ in range(306)]
+
+
+def test_outlines_are_drawn_of_few_of_the_darts(monkeypatch: pytest.MonkeyPatch) -> None:
+    drawn_of = 0
+    draw = Kit.marks
+
+    def counted(kit: Kit, poses: Poses, stretch: None) -> Field:
+        nonlocal drawn_of
+        drawn_of += len(poses)
+        return draw(kit, poses, stretch)
+
+    monkeypatch.setattr(Kit, "marks", counted)
+    found = toss(Toss(distance=0.8, settle=0), marks(BEAN, DOT), torus(), NOTHING, 3)
+    # Most darts miss, and that their discs tell.
+    assert drawn_of < 0.3 * found.report.darts

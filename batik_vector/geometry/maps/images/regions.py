@@ -10,6 +10,7 @@ import shapely
 from numpy.typing import NDArray
 
 from batik_vector.errors import TornRingError
+from batik_vector.geometry.congruence import distinct
 from batik_vector.geometry.maps.affine import Complexes
 from batik_vector.geometry.maps.flame import FlameMap
 from batik_vector.geometry.maps.images.chains import Angles, Chains, prepare, unwrap
@@ -126,7 +127,7 @@ def _built(
     """Return valid polygons from traced rings, and their owners."""
     by_size = bool(flame.poles)
     polygons = polygons_of(*traced.thinned(), owner, by_size)
-    index = np.unique(owner)
+    index = distinct(owner)
     bad = ~shapely.is_valid(polygons)
     if bad.any() and tolerance is not None and not callable(tolerance):
         # What the thinning broke is whole before it.
@@ -222,7 +223,7 @@ def _round_origin(
     traced = trace_images(flame, chains, unwrap(chains), 0, tolerance, thinning)
 
     found, source = [], []
-    for owner in np.unique(chains.owner):
+    for owner in distinct(chains.owner):
         which = np.flatnonzero(chains.owner == owner)
         image = _wound(flame, [traced.chain(int(i)) for i in which], turns[which], spins)
         if not image.is_valid and thinning and not callable(tolerance):
