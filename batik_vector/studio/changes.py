@@ -11,6 +11,7 @@ import math
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from itertools import islice
 from typing import Any
 
 from batik_vector.errors import Fault, RecipeError
@@ -31,6 +32,8 @@ SCALED = ("tile", "place", "motif", "ink", "border")
 NEVER_RESET = frozenset({"motif", "name", "kind", "format", "file", "title", *INK_KEYS})
 """Keys that say what something is, not how it looks."""
 NAMED = ("motif", "ink")
+TRIES = 20
+"""Variations tried for one that can be read."""
 
 
 def turned(draft: Draft, degrees: float, path: Where = ()) -> Draft:
@@ -156,10 +159,14 @@ def duplicated(draft: Draft, path: Where) -> tuple[Draft, str]:
 def varied(draft: Draft, seed: int, reach: float = 0.5) -> Draft:
     """Return a variation of a draft, the same one for the same seed; what is locked stays.
 
+    It is one that can be read: numbers that are well each by itself may not go together.
+
     Raises:
         RecipeError: where there is no number to vary.
     """
-    return next(variations(draft, seed, reach))
+    some = islice(variations(draft, seed, reach), TRIES)
+    first = next(some)
+    return first if not first.faults else next((each for each in some if not each.faults), first)
 
 
 def variations(draft: Draft, seed: int, reach: float = 0.5) -> Iterator[Draft]:

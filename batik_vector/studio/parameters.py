@@ -38,6 +38,15 @@ PANELS: Mapping[str, tuple[str, ...]] = {
     "outputs": ("output",),
 }
 """The panels in their order, the paper's two first, and what of the recipe each shows; "" is its own keys."""
+ABOUT: Mapping[str, str] = {
+    "pattern": "motifs and their shapes",
+    "layout": "where motifs lie",
+    "tile": "what repeats, and how",
+    "inks": "colours, in their order",
+    "cloth": "what is dyed, how large, its borders",
+    "outputs": "files, and their options",
+}
+"""What each panel is about, in a few words."""
 ASIDE = ("palette",)
 """Keys of the recipe's own that stand in another panel than the rest."""
 
@@ -233,15 +242,17 @@ class _Walk:
         """Return what a member of a list is called: by its name or motif, or by its kind."""
         said = place.said if isinstance(place.said, dict) else {}
         number = int(path[-1]) + 1
-        for key in ("name", "motif", "kind", "format"):
+        for key in ("name", "motif", "kind", "format", "frieze"):
             word = said.get(key)
             if isinstance(word, list) and word:
                 word = word[0]
             if isinstance(word, str) and word:
                 return f"{number} {word}"
-        curve = said.get("curve")
-        kind = curve.get("kind") if isinstance(curve, dict) else None
-        return f"{number} {kind}" if isinstance(kind, str) else str(number)
+        for key in ("curve", "layout"):
+            kind = said[key].get("kind") if isinstance(said.get(key), dict) else None
+            if isinstance(kind, str):
+                return f"{number} {kind}"
+        return str(number)
 
     def _members(self, place: Place, path: Path) -> Iterator[Group]:
         held = place.said if place.said is not MISSING else place.default
@@ -326,7 +337,7 @@ class _Walk:
             dotted(path),
             kind,
             _label(path, around),
-            says.symbol if says else "",
+            _symbol(says.symbol if says else "", path, around),
             says.text if says else "",
             "mm" if hint.length else "°" if angle else "",
             least,
@@ -395,6 +406,12 @@ def _number(hint: Hint, said: Any) -> Any:
         return parse_length(said)
     except ValueError:
         return said
+
+
+def _symbol(symbol: str, path: Path, around: Place | None) -> str:
+    """Return the paper's symbol of a value; of a pair (``dx, dy``) each number has its own."""
+    parts = symbol.split(", ")
+    return parts[int(path[-1])] if around is not None and len(parts) == len(around.hint.items) else symbol
 
 
 def _label(path: Path, around: Place | None) -> str:

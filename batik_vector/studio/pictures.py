@@ -26,11 +26,13 @@ from batik_vector.errors import Fault
 from batik_vector.making.pool import deaf
 from batik_vector.studio.asking import View, Wishes
 from batik_vector.studio.drafts import Draft
-from batik_vector.studio.worker import Answer, answer_of, request_of, serve
+from batik_vector.studio.worker import BEGUN, Answer, answer_of, request_of, serve
 from batik_vector.values import frozen
 
 LIMIT = 30.0
 """Seconds that a picture may take, unless an ask says otherwise."""
+STARTING = 60.0
+"""Seconds besides that its process may take to start: that is no fault of the picture."""
 EXPORT_LIMIT = 600.0
 """Seconds that an export may take."""
 FRONT, BACK, DETAIL, EXPORTING = "front", "back", "detail", "export"
@@ -92,7 +94,7 @@ class Pictures:
         self._hands = {which: _Hand(spare=which == FRONT) for which in kinds}
         self._turns: dict[str, asyncio.Lock] = {}
         self._newest: dict[str, int] = {}
-        self._running: dict[str, tuple[_Hand, float]] = {}
+        self._running: dict[str, _Hand] = {}
         self._took: dict[str, float] = {}
         self._closed = False
 
@@ -184,7 +186,7 @@ class Pictures:
             if self._newest.get(lane, 0) != ticket or self._closed:
                 return None
             hand = self._hands[which]
-            self._running[lane] = hand, time.perf_counter()
+            self._running[lane] = hand
             try:
                 answer = await self._answered(hand, request_of(draft, wanted), limit, tell)
                 if not answer.faults:
@@ -197,32 +199,50 @@ class Pictures:
         """Stop what is under way in a lane, which is answered with a fault, and drop what waits."""
         self._newest[lane] = self._newest.get(lane, 0) + 1
         if lane in self._running:
-            self._running[lane][0].stop("cancelled")
+            self._running[lane].stop("cancelled")
 
     def _make_room(self, lane: str) -> None:
         """See to it that what takes long does not keep a newer ask waiting."""
         if lane not in self._running:
             return
-        hand, since = self._running[lane]
+        hand = self._running[lane]
         patience = max(PATIENCE, USUAL * self._took.get(lane, 0.0))
-        left = patience - (time.perf_counter() - since)
         number = hand.number
         loop = asyncio.get_running_loop()
-        loop.call_later(max(left, 0), lambda: hand.stop("a newer one was asked for", number))
+
+        def look() -> None:
+            if number != hand.number:
+                return
+            if (left := patience - hand.worked) > 0:
+                loop.call_later(left, look)
+            else:
+                hand.stop("a newer one was asked for", number)
+
+        look()
 
     async def _answered(
         self, hand: _Hand, request: bytes, limit: float, tell: Callable[[str], None] | None
     ) -> Answer:
         loop = asyncio.get_running_loop()
-
-        def say(stage: str) -> None:
-            if tell is not None:
-                loop.call_soon_threadsafe(tell, stage)
-
         hand.number += 1
+        hand.begun = None
         number = hand.number
         words = f"took longer than {limit:g} s and was stopped"
-        alarm = loop.call_later(limit, lambda: hand.stop(words, number))
+        alarm = loop.call_later(limit + STARTING, lambda: hand.stop(words, number))
+
+        def begin() -> None:
+            nonlocal alarm
+            if number == hand.number:
+                hand.begun = time.perf_counter()
+                alarm.cancel()
+                alarm = loop.call_later(limit, lambda: hand.stop(words, number))
+
+        def say(stage: str) -> None:
+            if stage == BEGUN:
+                loop.call_soon_threadsafe(begin)
+            elif tell is not None:
+                loop.call_soon_threadsafe(tell, stage)
+
         work = loop.run_in_executor(self._threads, hand.exchange, number, request, say)
         try:
             return await asyncio.shield(work)
@@ -264,6 +284,13 @@ class _Hand:
         self._ended = False
         self.number = 0
         """Changes with every piece of work, so that none is stopped on behalf of another."""
+        self.begun: float | None = None
+        """When its process set about the work."""
+
+    @property
+    def worked(self) -> float:
+        """Seconds that its process has been at the work."""
+        return 0.0 if self.begun is None else time.perf_counter() - self.begun
 
     def exchange(self, number: int, request: bytes, tell: Callable[[str], None]) -> Answer:
         """Have a picture made. Runs in a thread.

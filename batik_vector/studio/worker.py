@@ -23,6 +23,9 @@ from batik_vector.values import frozen
 if TYPE_CHECKING:
     from batik_vector.studio.views import Looker
 
+BEGUN = "begun"
+"""The stage told first: from then on the work counts, and not that the process had to be started."""
+
 
 @frozen(eq=False)
 class Answer:
@@ -76,6 +79,7 @@ def serve(pipe: Connection) -> None:
     with contextlib.suppress(EOFError, OSError):
         while True:
             asked = json.loads(pipe.recv_bytes())
+            pipe.send_bytes(json.dumps({"stage": BEGUN}).encode())
             drawings = tuple(asked["drawings"].items())
             draft = Draft(asked["text"], asked["folder"], drawings=drawings, stem=asked["stem"])
 

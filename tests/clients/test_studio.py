@@ -156,6 +156,10 @@ def test_nothing_is_clipped_and_everything_has_a_name(
         page.page.wait_for_function(
             "[...document.querySelectorAll('.left img')].slice(0, 12).every(e => e.complete)"
         )
+        # What moves for ever takes the time that pictures need.
+        page.page.wait_for_function(
+            "document.getAnimations().every(e => e.effect.getTiming().iterations !== Infinity)"
+        )
         page.page.mouse.move(size[0] / 2, size[1] / 2)
         page.page.wait_for_timeout(500)
         folder = PICTURES if os.environ.get("BATIK_PICTURES") else tmp_path

@@ -145,6 +145,30 @@ def test_what_takes_minutes_is_stopped_and_the_page_answers_meanwhile(opened: Pa
     assert page.settled() == before
 
 
+def test_variations_over_two_numbers_stand_in_rows_and_one_is_taken(opened: Page) -> None:
+    page = opened.page
+    opened.slider(PETAL).wait_for()
+    before = opened.picture()
+    page.get_by_role("button", name="Explore variations").click()
+    sheet = page.get_by_role("dialog", name="Explore variations")
+    for label, number in (("Vary", "length of flower, petal"), ("and from row to row", "turn of bud, leaf")):
+        page.get_by_label(label, exact=True).fill(number)
+        page.get_by_role("option", name=number).click()
+    cards = sheet.locator(".contact .pattern:has(img[src])")
+    cards.nth(11).wait_for()
+    said = [tuple(each.split(", ")) for each in sheet.locator(".contact .name").all_inner_texts()]
+    assert [len({*column}) for column in zip(*said, strict=True)] == [4, 3]
+    assert [len({row for _, row in said[at : at + 4]}) for at in (0, 4, 8)] == [1, 1, 1]
+    box = cards.nth(11).bounding_box()
+    assert box
+    assert box["y"] + box["height"] < 900
+    cards.nth(5).click()
+    sheet.wait_for(state="detached")
+    taken = opened.settled(before)
+    page.get_by_role("button", name="Undo").click()
+    assert opened.settled(taken) == before
+
+
 @pytest.mark.parametrize("format", ["pdf", "dxf"])
 def test_a_file_that_was_compiled_is_its_recipe_again(opened: Page, tmp_path: Path, format: str) -> None:
     before = opened.picture()

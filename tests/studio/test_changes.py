@@ -198,6 +198,10 @@ def test_a_variation_is_the_same_for_a_seed_and_leaves_alone_what_is_locked() ->
         assert comments(each.text) == comments(draft.text)
     with pytest.raises(RecipeError, match="all are locked"):
         varied(draft.locking("motif"), 1)
+    # Numbers that are well each by itself may not go together: the first of these is passed over.
+    whole = Draft.read(SAMPLES / "four-square.toml")
+    assert next(variations(whole, 2)).faults
+    assert not varied(whole, 2).faults
 
 
 def test_what_is_copied_can_be_pasted_elsewhere() -> None:

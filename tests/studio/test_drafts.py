@@ -7,9 +7,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from batik_vector.errors import RecipeError
-from batik_vector.studio.drafts import Draft, changes_between
+from batik_vector.studio.drafts import Draft, changes_between, parsed
 from batik_vector.studio.history import History, Patch
 from batik_vector.studio.parameters import Control, controls
+from batik_vector.studio.text import rewriting
 from tests.studio.text.test_rewriting import TEXTS, comments
 from tests.thorough import examples, long
 
@@ -36,6 +37,26 @@ def test_lengths_keep_their_unit_and_numbers_their_kind() -> None:
     assert draft.with_value("motif.a.petal.count", 12.0).text == FLOWER.replace("8 }", "12 }")
     third = draft.with_value("motif.a.petal.length", 1 / 3).value("motif.a.petal.length")
     assert third == 0.333333
+
+
+def test_many_numbers_are_set_at_once_as_they_are_one_by_one() -> None:
+    draft = Draft(FLOWER)
+    values = (
+        ("place[0].width", 290, "29 cm"),
+        ("motif.a.petal.count", 12, 12),
+        ("tile.size[1]", 310.5, 310.5),
+    )
+    slowly = draft
+    for path, _, written in values:
+        slowly = slowly.with_text(rewriting.with_value(slowly.text, parsed(path), written))
+    quickly = draft.with_values([(path, value) for path, value, _ in values])
+    assert quickly.text == slowly.text
+    assert quickly.tables == Draft(quickly.text).tables
+    # What is not written yet, or is more than a number, goes the long way.
+    mixed = draft.with_values({"place[0].width": 290, "place[0].gap": 2})
+    assert (mixed.value("place[0].width"), mixed.value("place[0].gap")) == ("29 cm", "2 mm")
+    with pytest.raises(RecipeError, match="64 bits"):
+        draft.with_value("motif.a.petal.count", 2**70).tables  # noqa: B018
 
 
 def test_a_number_of_a_pair_that_is_not_written_brings_the_other_along() -> None:

@@ -78,7 +78,8 @@ class Commands:
         """Draw the commands that are always at hand."""
         self._undo.append(icon_button("undo", "Undo", self.do("undo"), tip="Undo (Ctrl+Z)"))
         self._redo.append(icon_button("redo", "Redo", self.do("redo"), tip="Redo (Ctrl+Shift+Z)"))
-        icon_button("grid_view", "Explore variations", self.do("explore"))
+        explore = word_button("Explore", self.do("explore"), icon="grid_view").classes("worded")
+        explore.props('aria-label="Explore variations"').tooltip("A sheet of variations (Ctrl+Shift+E)")
         icon_button("save", "Save to the library", self.do("save"), tip="Save to the library (Ctrl+S)")
 
     def keys(self) -> None:

@@ -13,7 +13,7 @@ from nicegui import ui
 from batik_vector.errors import BatikError
 from batik_vector.studio.page.fields import Row
 from batik_vector.studio.page.parts import group, icon_button, say, telling, text, told, word_button
-from batik_vector.studio.parameters import Control, Group, Panel, panels
+from batik_vector.studio.parameters import ABOUT, Control, Group, Panel, panels
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -23,6 +23,14 @@ if TYPE_CHECKING:
 
 MOST_PLAIN = 6
 """Controls of a table past which those that are not often set stand behind a button."""
+CALLED = {
+    "place": "placement",
+    "corner place": "corner placement",
+    "fill with": "fill",
+    "elements": "element",
+    "output": "file",
+}
+"""What members of lists are called on buttons, whose key is another word."""
 
 
 def is_plain(control: Control) -> bool:
@@ -58,7 +66,9 @@ class Controls:
             self._stem = self.session.draft.stem
             self.open.update(_opened(found))
         for panel in found:
-            mine = Group(f"panel:{panel.name}", panel.name.capitalize(), groups=panel.groups)
+            mine = Group(
+                f"panel:{panel.name}", panel.name.capitalize(), ABOUT[panel.name], groups=panel.groups
+            )
             self.section(mine, self.rows, 0, len(found))
 
     def reveal(self, *paths: str) -> None:
@@ -85,9 +95,11 @@ class Controls:
 
 
 def _opened(found: Sequence[Panel]) -> Iterator[str]:
-    """Yield what is open at first: the pattern, and the motif that has most of the paper's parameters."""
-    yield "panel:pattern"
-    yield "motif"
+    """Yield what is open at first: the pattern, and the motif that has most of the paper's parameters.
+
+    Of panels that are opened later, what one would look for.
+    """
+    yield from ("panel:pattern", "motif", "tile", "cloth", "yardage")
     motifs = [
         motif for each in found for whole in each.groups if whole.path == "motif" for motif in whole.groups
     ]
@@ -118,7 +130,8 @@ class Section:
         self._shape: tuple[object, ...] = ()
         # A list among the panel's own headings says nothing that its members do not say.
         self.flat = depth == 1 and shown.path in ("motif", "place", "ink", "output", "palette")
-        self.box = group(f"section depth-{depth}" + (" flat" if self.flat else ""))
+        kind = " flat" if self.flat else " member" if shown.member else ""
+        self.box = group(f"section depth-{depth}{kind}")
         with self.box:
             if not self.flat:
                 self.head = group("section-head")
@@ -190,7 +203,8 @@ class Section:
             for control in plain:
                 self._rows[control.path] = Row(self.session, control)
             if not few and (more or len(plain) < len(self.shown.controls)):
-                label = "Fewer" if more else f"{len(self.shown.controls) - len(plain)} more"
+                count = len(self.shown.controls) - len(plain)
+                label = "Fewer settings" if more else f"{count} more setting{'s' if count > 1 else ''}"
                 word_button(label, self._more).classes("more")
         self.foot.clear()
         if self.shown.offers and (self.flat or not self.shown.member):
@@ -201,6 +215,8 @@ class Section:
             name.props(f"aria-expanded={'true' if self.is_open else 'false'}")
             ui.icon("expand_more" if self.is_open else "chevron_right", size="18px").props("aria-hidden=true")
             text(self.shown.label, "label")
+            if self.depth == 0:
+                text(self.shown.help, "about quiet small")
             if not self.is_open and any(each.fault for each in self.shown.all_controls()):
                 ui.icon("error", size="16px").classes("fault")
         name.on("click", self.toggle)
@@ -218,10 +234,10 @@ class Section:
 
     def _adding(self) -> None:
         offers = self.shown.offers
-        what = self.shown.label
+        what = CALLED.get(self.shown.label, self.shown.label)
         with self.foot:
             if len(offers) == 1:
-                label = f"Add {offers[0].label}"
+                label = f"Add {CALLED.get(offers[0].label, offers[0].label)}"
                 word_button(label, lambda: self._add(offers[0]), icon="add").classes("more")
                 return
             with (

@@ -180,11 +180,11 @@ def true_size() -> None:
 KEYS = (
     ("Ctrl+Z, Ctrl+Shift+Z", "undo, redo"),
     ("Ctrl+S, Ctrl+Shift+S", "save to the library, save as"),
-    ("Ctrl+E", "export"),
+    ("Ctrl+E, Ctrl+Shift+E", "export, explore variations"),
     ("Ctrl+O", "open a file"),
     ("In the display: arrow keys", "move"),
     ("+, −, 0, 1", "zoom in, zoom out, fit, true size"),
-    ("On a slider: arrow keys", "one step; Page Up and Page Down, ten"),
+    ("On a slider: arrow keys", "a step (Page Up, Page Down: ten)"),
     ("Double click, wheel, drag", "fit, zoom, move"),
 )
 

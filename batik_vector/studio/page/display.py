@@ -336,8 +336,9 @@ class Display:
             return
         self._inks = inks
         self.layers.clear()
+        cloth = "" if self.session.draft.faults else self.session.draft.recipe.cloth.colour
         with self.layers, group("layers"):
-            for name, colour in (("cloth", ""), *inks):
+            for name, colour in (("cloth", cloth), *inks):
                 with group("layer"):
                     ui.checkbox(
                         name,

@@ -58,10 +58,13 @@ class Exporting:
         with group("line-of-fields"):
             machines = {NONE: "no machine", **{name: name for name in MACHINES}}
             self.machine = ui.select(machines, value=NONE, label="Machine").props("outlined dense")
-            self.process = ui.input("Process, as in: cut kerf=0.15mm").props("outlined dense")
+            self.process = ui.input("Process").props("outlined dense")
             offering(self.process, "Choose a process", list(PROCESSES), self.process.set_value)
         text(
-            "Files are true to size. All other options of a format are set under Outputs.", "quiet small", "p"
+            "Files are true to size. A process may have options behind its name, as in: cut kerf=0.15mm. "
+            "All other options of a format are set under Outputs.",
+            "quiet small",
+            "p",
         )
         self.told = text("", "wrong", "p").props("role=alert")
         with group("dialog-foot"):

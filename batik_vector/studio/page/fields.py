@@ -32,7 +32,9 @@ def shown(value: Any) -> str:
         return short if float(short) == value else str(value)
     if isinstance(value, float):
         return f"{value:.6g}" if math.isfinite(value) else ""
-    if isinstance(value, list) and value and all(isinstance(each, str) for each in value):
+    if value == []:
+        return ""
+    if isinstance(value, list) and all(isinstance(each, str) for each in value):
         words = ", ".join(value)
         return words if read(words) == value else spelled(value)
     return value if isinstance(value, str) else spelled(value)
@@ -122,10 +124,13 @@ class Row:
             made = self._select()
         else:
             made = ui.input(value=shown(control.value)).props("dense outlined hide-bottom-space")
-            made.on("blur", self._typed).on("keydown.enter", self._typed)
+            # Of a field of several lines, too, Enter takes what it says.
+            made.on("blur", self._typed).on("keydown.enter.prevent", self._typed)
             if control.unit:
                 made.props(f'suffix="{control.unit}"')
             if control.kind == "list":
+                made.props('placeholder="none" type=textarea autogrow')
+            if control.kind == "text" and control.default is None:
                 made.props('placeholder="none"')
             if control.kind == "text" and control.choices:
                 offering(made, f"Choose {self.words}", control.choices, self._set)
@@ -144,7 +149,7 @@ class Row:
     def _options(self, choices: Sequence[str]) -> dict[str, str]:
         held = self.control.value
         more = held if isinstance(held, list) else [held] if isinstance(held, str) else []
-        return {each: each or "as around" for each in dict.fromkeys([*choices, *map(str, more)])}
+        return {each: each or "inherited" for each in dict.fromkeys([*choices, *map(str, more)])}
 
     def _chosen(self) -> Any:
         value = self.control.value
@@ -235,9 +240,17 @@ class Row:
             options = self._options(control.choices)
             if field.options != options:
                 field.set_options(options)
+            if control.kind == "choice":
+                self._say_none(field, value)
         elif control.kind == "switch":
             value = bool(control.value)
         if field.value != value:
             field.set_value(value)
         if control.kind == "colour":
             self.swatch.style(f"background: {shown(control.value)} !important")
+
+    def _say_none(self, field: ui.select, value: Any) -> None:
+        """Say so where nothing is chosen."""
+        words = "none" if value is None else None
+        if field._props.get("display-value") != words:
+            field.props('display-value="none"') if words else field.props(remove="display-value")

@@ -65,8 +65,11 @@ class Page:
         with self.frame:
             with group("bar", "header"):
                 self._bar()
-            with group("side left", "aside").props('aria-label="Library"'):
+            with group("side left", "aside").props('aria-label="Library"') as drawer:
                 self._left()
+            drawer.on("keydown.escape", self._close_left)
+            # On a narrow page the library lies over the display, and goes when that is clicked.
+            group("veil").on("click", self._close_left)
             self.display = Display(session, lambda: self._soon(SOON))
             with group("side right", "aside").props('aria-label="Parameters"'):
                 self._right()
@@ -101,7 +104,7 @@ class Page:
             ui.tab("versions", "Versions")
         with ui.tab_panels(tabs, value="library").props("animated=false keep-alive"):
             with ui.tab_panel("library"):
-                LibraryPanel(self.session)
+                self.library = LibraryPanel(self.session)
             with ui.tab_panel("versions"):
                 self.versions = VersionsPanel(self.session)
         tabs.on_value_change(lambda event: self.versions.shown(event.value == "versions"))
@@ -133,6 +136,7 @@ class Page:
         self.controls.refresh()
         self.recipe.refresh()
         self.versions.refresh()
+        self.library.mark()
 
     def _pasted(self, event: Any) -> None:
         with told():
@@ -147,6 +151,9 @@ class Page:
 
     def _open_left(self) -> None:
         self.frame.classes(toggle="open")
+
+    def _close_left(self) -> None:
+        self.frame.classes(remove="open")
 
     async def _look_at_screen(self) -> None:
         """Begin dark where the system is."""

@@ -40,6 +40,13 @@ def card(name: str, label: str, said: str, action: Callable[..., Any], version: 
     return made.on("click", action)
 
 
+def mark(button: ui.element, on: bool) -> None:
+    """Show whether a card is that of what is open."""
+    if on != ("aria-current" in button._props):
+        button.classes(add="open" if on else "", remove="" if on else "open")
+        button.props("aria-current=true") if on else button.props(remove="aria-current")
+
+
 def _attribute(words: str) -> str:
     return words.replace("&", "&amp;").replace('"', "&quot;")
 
@@ -51,6 +58,7 @@ class LibraryPanel:
         self.session = session
         self._asked = 0
         self._most = SHOWN_AT_ONCE
+        self._cards: dict[str, ui.element] = {}
         with group("column"):
             with group("searching"):
                 self.words = (
@@ -98,16 +106,18 @@ class LibraryPanel:
         # Own patterns first: they are what one comes back for. Then what one begins with.
         found.sort(key=lambda hit: (hit.included, hit.included and not hit.name.startswith("starter/")))
         self.shelf.clear()
+        self._cards = {}
         with self.shelf:
             for hit in found[: self._most]:
                 label = hit.title or hit.name
-                card(
+                self._cards[hit.name] = card(
                     hit.name,
                     label,
                     f"{label} ({hit.name})",
                     telling(lambda hit=hit: self.session.open_pattern(hit.name)),
                     hit.version,
                 )
+        self.mark()
         # What is shown answers these words: whoever drives the page waits for it.
         self.shelf.props(f'data-words="{_attribute(words)}"')
         self.more.set_visibility(self._most < min(len(found), MOST_SHOWN))
@@ -115,6 +125,11 @@ class LibraryPanel:
             say(self.said, f"{self._most} of {len(found)} patterns")
         elif found:
             say(self.said, f"{len(found)} pattern{'s' if len(found) > 1 else ''}")
+
+    def mark(self) -> None:
+        """Show which of the patterns is open."""
+        for name, button in self._cards.items():
+            mark(button, name == self.session.pattern)
 
 
 class VersionsPanel:
@@ -124,8 +139,10 @@ class VersionsPanel:
         self.session = session
         self._seen = False
         self._drawn: tuple[str, int] | None = None
+        self._cards: dict[str, ui.element] = {}
         with group("scroll"):
-            self.words = text("", "quiet small pad", "p")
+            words = "Save the pattern to the library, and its versions are kept here, side by side."
+            self.words = text(words, "quiet small pad", "p")
             self.shelf = group("shelf")
         ui.context.client.on_delete(session.on_library(self.refresh))
 
@@ -143,14 +160,16 @@ class VersionsPanel:
         name = self.session.pattern
         found = await self.session.shelf.versions(name) if name else []
         state = name, len(found)
-        if state == self._drawn:
-            return
-        self._drawn = state
-        say(self.words, "" if found else "Save the pattern to the library, and its versions are kept here.")
-        self.shelf.clear()
-        with self.shelf:
-            for number, each in enumerate(found):
-                self._card(each, newest=number == 0)
+        if state != self._drawn:
+            self._drawn = state
+            self.words.set_visibility(not found)
+            self.shelf.clear()
+            self._cards = {}
+            with self.shelf:
+                for number, each in enumerate(found):
+                    self._card(each, newest=number == 0)
+        for reference, button in self._cards.items():
+            mark(button, reference == self.session.reference)
 
     def _card(self, version: Version, *, newest: bool) -> None:
         when = version.saved[:16].replace("T", " ")
@@ -158,7 +177,8 @@ class VersionsPanel:
         with group("versioned"):
             said = f"{reference}, saved {when}"
             open_it = telling(lambda: self.session.open_pattern(reference))
-            card(version.name, f"Version {version.number}", said, open_it, version.number)
+            label = f"Version {version.number}{' (newest)' if newest else ''}"
+            self._cards[reference] = card(version.name, label, said, open_it, version.number)
             text(when, "quiet small")
             if not newest:
                 word_button("Restore", telling(lambda: self._restore(reference)), icon="history")

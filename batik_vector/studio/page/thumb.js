@@ -16,7 +16,8 @@ function next() {
     const image = waiting.pop();
     if (!image.isConnected) continue;
     busy++;
-    image.onload = image.onerror = () => { busy--; next(); };
+    image.classList.add("drawing");
+    image.onload = image.onerror = () => { image.classList.remove("drawing"); busy--; next(); };
     made.get(image).src = made.get(image).address;
   }
 }

@@ -10,7 +10,7 @@ from __future__ import annotations
 import copy
 import re
 import tomllib
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from batik_vector.recipe.reading.lines import spans
@@ -60,6 +60,42 @@ def with_value(text: str, path: Path, value: Any) -> str:
     key = keys[0]
     ways = [lambda: _added(text, around, key, held), lambda: _headed(text, (*around, key), held)]
     return _first(ways, tables)
+
+
+def exchanged(
+    text: str, tables: dict[str, Any], values: Mapping[Path, Any]
+) -> tuple[str, dict[str, Any]] | None:
+    """Return a text that says other values where it says some, all at once, and the tables that it then says.
+
+    Args:
+        text: the recipe.
+        tables: what it says; not changed.
+        values: by their paths: numbers and words.
+
+    Returns:
+        None where some of them stand nowhere in the text as they are, or there is a list or a table.
+    """
+    known = spans(text).values
+    if any(path not in known or isinstance(_at(tables, path), dict | list) for path in values):
+        return None
+    written = text
+    for start, end, word in sorted(
+        ((*known[path], spelled(value)) for path, value in values.items()), reverse=True
+    ):
+        written = written[:start] + word + written[end:]
+    try:
+        said = tomllib.loads(written)
+    except tomllib.TOMLDecodeError:
+        return None
+    # But for these values it says what it said.
+    whole = True
+    for path, value in values.items():
+        whole = whole and _at(said, path) == value
+        _at(said, path[:-1])[path[-1]] = _at(tables, path)
+    whole = whole and said == tables
+    for path, value in values.items():
+        _at(said, path[:-1])[path[-1]] = value
+    return (written, said) if whole else None
 
 
 def with_table(text: str, path: Path, value: dict[str, Any], written: str = "") -> str:
