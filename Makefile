@@ -39,11 +39,11 @@ sbom: $(TOOLS_READY) ## write the bill of materials (CycloneDX): out/batik-vecto
 	@mkdir -p out
 	$(PY) -m tools.sbom >out/batik-vector.cdx.json
 
-test: $(TOOLS_READY) ## run the tests; ONLY="tests/tiling tests/export": only those
-	$(PY) -m pytest $(WORKERS) -rs $(if $(LOWEST),-m 'not clients and not long') $(ONLY)
+test: $(TOOLS_READY) ## run the tests; ONLY="tests/tiling tests/export": only those; FEW=3: on every third sample
+	$(PY) -m pytest $(WORKERS) -rs $(if $(FEW),--few $(FEW)) $(if $(LOWEST),-m 'not clients and not long') $(ONLY)
 
-test-clients: $(TOOLS_READY) $(CLIENTS_READY) site ## open the files in Inkscape, LibreCAD, LinuxCNC, vpype, hp2xx, Chromium, poppler, mupdf, Ghostscript, qpdf
-	$(PY) -m pytest $(WORKERS) -rs -m clients
+test-clients: $(TOOLS_READY) $(CLIENTS_READY) site ## open the files (FEW=3: of every third sample) in Inkscape, LibreCAD, LinuxCNC, vpype, hp2xx, Chromium, poppler, mupdf, Ghostscript, qpdf
+	$(PY) -m pytest $(WORKERS) -rs $(if $(FEW),--few $(FEW)) -m clients
 
 test-long: $(TOOLS_READY) ## run the random tests with many more examples; LONG=3: three times as many
 	BATIK_LONG=$(or $(LONG),1) $(PY) -m pytest $(WORKERS) -rs -m 'long and not clients'
@@ -51,8 +51,8 @@ test-long: $(TOOLS_READY) ## run the random tests with many more examples; LONG=
 test-pythons: ## lint and test on PYTHON and on the newest that this machine has; ALL=1: on every one from 3.11 on
 	@tools/pythons.sh lint test
 
-test-lowest: ## test with the oldest versions of all that pyproject.toml asks for; random tests aside
-	@$(MAKE) --no-print-directory VENV=.venv-lowest LOWEST=1 test
+test-lowest: ## test with the oldest versions of all that pyproject.toml asks for, on every third sample; random tests aside
+	@$(MAKE) --no-print-directory VENV=.venv-lowest LOWEST=1 FEW=3 test
 
 test-bare: $(TOOLS_READY) ## README's two commands on bare systems: SUITE="trixie bookworm" (the default; all tests on the first), or sid
 	@tools/setup.sh bare

@@ -3,8 +3,13 @@ from __future__ import annotations
 import contextlib
 import os
 import signal
+import zlib
 
+import pytest
 from hypothesis import settings
+
+KINDS = 8
+"""Parameter sets of a test that ``--few`` never takes less of: so many are kinds of things, more are samples."""
 
 # How long one example takes says more of the machine than of the code.
 settings.register_profile("here", deadline=None)
@@ -23,3 +28,30 @@ with contextlib.suppress(ImportError, AttributeError):
 # Where the tests run in the background, Ctrl-C is ignored, and what they start would take that over.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption(
+        "--few",
+        type=int,
+        default=1,
+        help="of a test that is tried on many samples, try every Nth: which ones, hangs on the test's name",
+    )
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    few: int = config.getoption("--few")
+    if few < 2:
+        return
+    of_test: dict[str, list[pytest.Item]] = {}
+    for item in items:
+        of_test.setdefault(item.nodeid.partition("[")[0], []).append(item)
+    left_out = {
+        item
+        for name, each in of_test.items()
+        if len(each) > KINDS
+        for number, item in enumerate(each)
+        if (number + zlib.crc32(name.encode())) % few
+    }
+    config.hook.pytest_deselected(items=[item for item in items if item in left_out])
+    items[:] = [item for item in items if item not in left_out]
