@@ -21,6 +21,7 @@ def picture(path: Path) -> bytes:
 
 
 @pytest.mark.clients
+@pytest.mark.every
 @pytest.mark.parametrize("path", golden.samples(), ids=lambda path: path.stem)
 def test_picture_and_words_are_up_to_date(path: Path) -> None:
     """The gallery's or the figures', what the library knows, and the way of a pen."""
