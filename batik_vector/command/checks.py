@@ -19,7 +19,7 @@ from batik_vector.certificate import Asked, Certificate, Kind, Limits, certify, 
 from batik_vector.certificate.pointers import COLOUR, NAME, pointer_lines
 from batik_vector.command.carried_recipes import Promise, bled, differences, promised, promised_prepared
 from batik_vector.command.drawing_files import is_drawing
-from batik_vector.compiling.compiler import compile_recipe, inspect
+from batik_vector.compiling.compiler import compile_recipe, described, inspect
 from batik_vector.errors import BatikError, ExportError, Fault, GeometryError, RecipeError
 from batik_vector.export import render, write_all_whole
 from batik_vector.export.provenance import read_provenance
@@ -273,12 +273,11 @@ def _drawing_found(
     artwork = reading.artwork
     broken = list(promise.broken) if promise else []
     apart = differences(artwork, promise.artwork) if promise and not broken else []
-    facts = inspect(artwork)
+    # The normal form and equal bits on the seam are for what this program compiles.
+    facts = {**described(artwork), "violations": [], "seam": []}
     for told, layer in zip(facts["layers"], artwork.layers, strict=True):
         told["covers"] = round(certificate.covers.get(layer.ink.name, 0.0), 6)
     facts["page_mm"] = [round(side, 6) for side in reading.page]
-    # The normal form and equal bits on the seam are for what this program compiles.
-    facts["violations"], facts["seam"] = [], []
     facts["broken"], facts["differences"] = broken, apart
     recipe = promise.recipe if promise else None
     found = _found(source, artwork, certificate, facts, checked="geometry", notes=notes, recipe=recipe)

@@ -187,15 +187,12 @@ def inspect(artwork: Artwork) -> dict[str, Any]:
     ``violations`` lists breaks of the normal form; ``seam`` the stretches, in mm, that one edge covers
     and its opposite does not. An artwork is sound when both are empty.
     """
+    return {**described(artwork), "violations": violations(artwork), "seam": _breaks(artwork)}
+
+
+def described(artwork: Artwork) -> dict[str, Any]:
+    """Return the facts of an artwork as plain values, without a look at what may be wrong with it."""
     cell_area = artwork.cell.width * artwork.cell.height
-    breaks = []
-    for layer in artwork.layers:
-        for axis, low, high in seams.mismatch(to_step_grid(layer.areas), artwork.cell).tolist():
-            if (layer.ink.name, axis, low, high) in artwork.borders:
-                continue
-            side = "left and right" if axis == 0 else "lower and upper"
-            ends = {"from_mm": low / STEPS_PER_MM, "to_mm": high / STEPS_PER_MM}
-            breaks.append({"ink": layer.ink.name, "edges": side, **ends})
     return {
         "title": artwork.title,
         "cell_mm": [artwork.cell.width, artwork.cell.height],
@@ -212,6 +209,17 @@ def inspect(artwork: Artwork) -> dict[str, Any]:
             }
             for layer in artwork.layers
         ],
-        "violations": violations(artwork),
-        "seam": breaks,
     }
+
+
+def _breaks(artwork: Artwork) -> list[dict[str, Any]]:
+    """Return the stretches, in mm, that one edge covers and its opposite does not."""
+    breaks = []
+    for layer in artwork.layers:
+        for axis, low, high in seams.mismatch(to_step_grid(layer.areas), artwork.cell).tolist():
+            if (layer.ink.name, axis, low, high) in artwork.borders:
+                continue
+            side = "left and right" if axis == 0 else "lower and upper"
+            ends = {"from_mm": low / STEPS_PER_MM, "to_mm": high / STEPS_PER_MM}
+            breaks.append({"ink": layer.ink.name, "edges": side, **ends})
+    return breaks

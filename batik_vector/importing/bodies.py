@@ -119,10 +119,13 @@ def _ends(marks: Marks, rows: Indices, sides: Floats) -> _Ends:
 
 
 def _stroked(marks: Marks, rows: Indices, ends: _Ends, tolerance: float) -> tuple[Geometries, Indices]:
-    """Return the bodies of some lines, drawn on where they end on an edge, and the line of each."""
+    """Return the bodies of lines and the line of each; whole lines are drawn on where they end on an edge."""
     lines = marks.lines.copy()
     for i, row in enumerate(ends.line.tolist()):
-        breadth = marks.shapes[marks.line_shape[row]].width
+        shape = marks.shapes[marks.line_shape[row]]
+        if shape.pen.dashes:  # They would fall elsewhere along the line.
+            continue
+        breadth = shape.width
         xy = shapely.get_coordinates(lines[row])
         beyond = ends.places[i] + ends.way[i] * LONGER * breadth
         lines[row] = shapely.LineString(np.vstack([xy, beyond] if ends.last[i] else [beyond, xy]))

@@ -30,6 +30,8 @@ JOINS: dict[str, Join] = {
 }
 MOST_DASHES = 100_000
 """Dashes of one line past which it is taken as a whole one: it would look so."""
+SHORTEST = 1e-6
+"""Length (mm) below which a dash has none."""
 BLUNT = 0.999
 """Square of the cosine of half a turn from which a mitre is no more than a bevel."""
 FOLD_MM = 1e-6
@@ -200,7 +202,11 @@ def dots(outline: Outline, pen: Pen, radius: float) -> Outline:
 
 
 def dashed(line: shapely.LineString, pen: Pen) -> list[shapely.LineString]:
-    """Return the dashes of a polyline; the line itself where there would be too many."""
+    """Return the dashes of a polyline; the line itself where there would be too many.
+
+    Dashes of no length are drawn by their caps (SVG 2, 13.5.4), and one that begins where the line ends is
+    not there: a sum of floats may say that it begins just before.
+    """
     xy = shapely.get_coordinates(line)
     step = np.hypot(*np.diff(xy, axis=0).T)
     reached = np.r_[0.0, np.cumsum(step)]
@@ -213,13 +219,13 @@ def dashed(line: shapely.LineString, pen: Pen) -> list[shapely.LineString]:
     begins = (
         np.arange(first, first + int(count) + 2)[:, None] * period + marks[None, :-1:2] - pen.begin
     ).ravel()
-    ends = begins + np.tile(np.array(pen.dashes)[::2], len(begins) // (len(pen.dashes) // 2))
+    lengths = np.tile(np.array(pen.dashes)[::2], len(begins) // (len(pen.dashes) // 2))
+    if pen.cap != "flat":
+        begins, lengths = np.where(np.abs(begins) < SHORTEST, 0.0, begins), np.maximum(lengths, 2 * SHORTEST)
+    lows, highs = np.maximum(begins, 0.0), np.minimum(begins + lengths, reached[-1])
     found = []
-    for low, high in zip(
-        np.maximum(begins, 0.0).tolist(), np.minimum(ends, reached[-1]).tolist(), strict=True
-    ):
-        if low >= high:
-            continue
+    for row in np.flatnonzero(highs - lows > SHORTEST).tolist():
+        low, high = float(lows[row]), float(highs[row])
         inner = np.flatnonzero((reached > low) & (reached < high))
         at = np.r_[low, reached[inner], high]
         found.append(shapely.LineString(np.column_stack([np.interp(at, reached, part) for part in xy.T])))

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from batik_vector.artwork import Artwork, Layer, Overlap
 from batik_vector.export import render
-from batik_vector.importing.pens import Join, Pen, bodies
+from batik_vector.importing.pens import Cap, Join, Pen, bodies
 from batik_vector.importing.svg import read_svg, read_tile
 from tests.clients.pictures import differing, reference
 from tests.importing.drawings import DISC, MIXED, svg
@@ -385,3 +385,22 @@ def test_mitres_past_their_limit_are_bevelled(places: list[tuple[float, float]],
     assert body.bounds[2] <= 20.1
     if len(places) > 3:
         assert body.area == pytest.approx(area, abs=0.3)
+
+
+@pytest.mark.parametrize(
+    ("cap", "dashes", "begin", "area"),
+    [
+        ("round", (0.0, 4.0), 0.0, 5 * math.pi / 4),
+        ("square", (0.0, 4.0), 0.0, 5.0),
+        ("flat", (0.0, 4.0), 0.0, 0.0),
+        ("round", (0.0, 4.0), 0.1 + 0.2 - 0.3, 5 * math.pi / 4),
+        ("round", (2.0, 2.0), 0.0, 5 * (2 + math.pi / 4)),
+        # A dash that ends where the line begins, and one that begins where it ends, are not there.
+        ("round", (2.0, 2.0), 2.0, 5 * (2 + math.pi / 4)),
+        ("round", (4.0, 4.0, 0.0, 2.0), 1e-17, 2 * (4 + math.pi / 4) + 2 * math.pi / 4),
+    ],
+)
+def test_dashes_of_no_length_are_dots(cap: Cap, dashes: tuple[float, ...], begin: float, area: float) -> None:
+    line = np.array([shapely.LineString([(0, 0), (7, 0), (20, 0)])], dtype=object)
+    shapes, _ = bodies(line, 1.0, Pen(cap, "round", 4.0, dashes, begin), 0.001)
+    assert shapely.area(shapes).sum() == pytest.approx(area, rel=4e-3, abs=1e-4)

@@ -270,5 +270,11 @@ def meeting(areas: Geometries) -> Indices:
     """Return the pairs of areas that have a point in common, shape (n, 2)."""
     if len(areas) < 2:
         return np.empty((0, 2), np.intp)
-    a, b = shapely.STRtree(areas).query(areas, predicate="intersects")
-    return np.asarray(np.column_stack([a, b])[a < b])
+    a, b = shapely.STRtree(areas).query(areas)
+    a, b = a[a < b], b[a < b]
+    # Each pair is asked once, and of its larger area, which is made ready for many questions.
+    vertices = shapely.get_num_coordinates(areas)
+    large = np.where(vertices[a] < vertices[b], b, a)
+    shapely.prepare(areas[np.unique(large)])
+    met = shapely.intersects(areas[large], areas[np.where(large == a, b, a)])
+    return np.asarray(np.column_stack([a, b])[met])

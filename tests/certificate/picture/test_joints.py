@@ -130,7 +130,8 @@ def test_what_the_page_cuts_without_a_twin_fails(body: str, kind: Kind, words: s
         'stop-color="#fff"/><stop offset="1" stop-color="#333"/></radialGradient></defs>'
         '<rect width="60" height="60"/><rect width="60" height="60" fill="url(#a)"/>',
         # Half a line in dashes, and its other half, in step.
-        f'<path d="M0 0V60M60 0V60" stroke="{BLUE}" stroke-width="4" stroke-dasharray="8 4"/>',
+        f'<path d="M0 0V60M60 0V60" stroke="{BLUE}" stroke-width="4" stroke-dasharray="8 4" '
+        'stroke-dashoffset="4"/>',
     ],
 )
 def test_what_shows_no_seam_passes(body: str) -> None:
@@ -142,6 +143,22 @@ def test_what_shows_no_seam_passes(body: str) -> None:
 def test_dashes_out_of_step_fail() -> None:
     line = f'<path d="M{{}} 0V60" stroke="{BLUE}" stroke-width="4" stroke-dasharray="8 4"{{}}/>'
     assert found(line.format(0, "") + line.format(60, ' stroke-dashoffset="3"')).faults
+
+
+def test_dashes_fall_where_they_are_drawn() -> None:
+    dashes = f'<path fill="none" stroke="{BLUE}" stroke-width="4" stroke-linecap="round" {{}}/>'
+    # The first dash begins on the edge, and its cap does not come back at the other: the line is none.
+    begun = found(dashes.format('d="M0 30H60" stroke-dasharray="6 6"'))
+    assert begun.faults == ()
+    assert edges(begun) == [("left", 28, 32)]
+    whole = found(dashes.format('d="M0 30H60" stroke-dasharray="6 6" stroke-dashoffset="-3"'))
+    assert whole.faults == ()
+    assert edges(whole) == []
+    # A row of dots, which are dashes of no length, with and without the twin of the one that the page cuts.
+    assert found(dashes.format('d="M0 30H60" stroke-dasharray="0 12"')).faults
+    twins = found(dashes.format('d="M-12 30H70" stroke-dasharray="0 12"'))
+    assert twins.faults == ()
+    assert edges(twins) == []
 
 
 @pytest.mark.parametrize("apart", [0.02, 0.039])
