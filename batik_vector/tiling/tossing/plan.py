@@ -9,6 +9,7 @@ import numpy as np
 import shapely
 
 from batik_vector.artwork import Geometries
+from batik_vector.errors import GeometryError
 from batik_vector.geometry.sampling import Array
 from batik_vector.tiling.layouts.grounds import Scattered
 from batik_vector.tiling.tossing.darts import Rules, Spacing
@@ -103,3 +104,18 @@ def apportioned(count: int, weights: Array) -> Array:
     whole = np.floor(shares)
     whole[np.argsort(whole - shares, kind="stable")[: count - int(whole.sum())]] += 1
     return np.asarray(whole)
+
+
+def rules_of(spec: Scattered, motifs: int) -> Rules:
+    """Return what the darts of a toss or a packing of so many motifs look like.
+
+    Raises:
+        GeometryError: where there is not one weight for each motif.
+    """
+    if spec.weights and len(spec.weights) != motifs:
+        listed = ", ".join(f"{weight:g}" for weight in spec.weights[:8])
+        raise GeometryError(f"weights = [{listed}]: expected one for each motif, {motifs} in all")
+    weights = np.array(spec.weights or (1.0,) * motifs)
+    return Rules(
+        spec.turn, spec.turns, (1.0, spec.size[1] / spec.size[0]), spec.flip, weights / weights.sum()
+    )

@@ -12,7 +12,7 @@ import numpy as np
 import shapely
 
 from batik_vector.artwork import Geometries
-from batik_vector.errors import GeometryError, TooLargeError
+from batik_vector.errors import GeometryError
 from batik_vector.geometry import work
 from batik_vector.geometry.maps.affine import IDENTITY, Affine
 from batik_vector.geometry.maps.affines import Affines, turns
@@ -24,28 +24,16 @@ from batik_vector.tiling.tossing.falls import Falls, opened
 from batik_vector.tiling.tossing.marks import Field, Kit, Poses
 from batik_vector.tiling.tossing.outlines import outline
 from batik_vector.tiling.tossing.packing import Asked, packed_on
-from batik_vector.tiling.tossing.plan import Plan
+from batik_vector.tiling.tossing.plan import Plan, rules_of
+from batik_vector.tiling.tossing.refusals import refuse_crowded, refuse_impossible, refuse_too_many
 from batik_vector.tiling.tossing.report import TossReport
 from batik_vector.tiling.tossing.scatter import Scatter, Torus
 from batik_vector.tiling.tossing.settling import settled
 from batik_vector.units import STEPS_PER_MM, format_mm
 from batik_vector.values import frozen
 
-MOST_MARKS = 20_000
-"""Marks of one toss. A cloth of more is a ground: smaller, and repeated."""
-
 ROUNDS = 3
 """How often marks are settled and the holes that this opens thrown at again."""
-
-DENSEST = math.pi / math.sqrt(12)
-"""Share of a plane that equal discs cover when they lie as close as they can: Thue's theorem."""
-
-CLOSEST, CLOSEST_DISCS = 0.85, 0.65
-"""Shares of the repeat that no toss of many marks covers, with half the distance round each, and that the
-largest discs in them do not: discs came to 0.52 with the most darts and settling."""
-
-MANY = 24
-"""Marks from which chance decides, and not how a few happen to fit into the repeat."""
 
 CERTAIN = 100
 """Marks, images included, of which a throw says how many will fit: chance evens out."""
@@ -120,8 +108,9 @@ def toss(spec: Scattered, marks: Marks, torus: Torus, taken: Field, seed: int) -
     packed = isinstance(spec, Pack)
     outlines = np.array([outline(body, spec.distance, marks.slack, packed) for body in bodies], dtype=object)
     kit = Kit.of(_whole(as_steps(outlines)))
-    _refuse_too_many(spec, kit, torus)
-    _refuse_impossible(spec, kit, torus)
+    refuse_too_many(spec, kit, torus)
+    refuse_impossible(spec, kit, torus)
+    refuse_crowded(spec, kit, torus, taken)
     scatter = Scatter(torus, kit, spec.size[1] / spec.size[0], taken)
     seed = seed if spec.seed is None else spec.seed
     falls = opened()
@@ -179,7 +168,7 @@ def _fallen(scatter: Scatter, spec: Scattered, marks: Marks, seed: int) -> Falle
     if isinstance(spec, Toss):
         darts = _filled(scatter, spec, marks, Dice(seed))
     else:
-        rules = _rules(spec, len(marks.names))
+        rules = rules_of(spec, len(marks.names))
         plan = Plan.of(spec, marks.bodies, rules, scatter)
         packing = Asked(rules, spec.distance * STEPS_PER_MM, spec.tries, plan.wanted)
         darts = packed_on(scatter, packing, Dice(seed))
@@ -211,51 +200,9 @@ def _check_distance(spec: Scattered, torus: Torus) -> None:
         )
 
 
-def _refuse_too_many(spec: Scattered, kit: Kit, torus: Torus) -> None:
-    side = np.sqrt(shapely.area(kit.outlines)) + spec.distance * STEPS_PER_MM
-    about = torus.area / float(np.mean(side)) ** 2
-    if spec.count is None and about > MOST_MARKS:
-        raise TooLargeError(
-            f"about {about:,.0f} marks would fit, past {MOST_MARKS:,}: expected a count, larger marks or a "
-            "smaller repeat"
-        )
-
-
-def _refuse_impossible(spec: Scattered, kit: Kit, torus: Torus) -> None:
-    """Refuse a count that cannot fit, or that no toss comes near; others are tried, and told when they fail.
-
-    Outlines grown by half the distance stay apart, and so do the largest discs within them, whatever their
-    size above the least; equal discs cover no more than π/√12 of a plane.
-    """
-    if spec.count is None or torus.stretch is not None:
-        return
-    images = len(torus.operations)
-    half = spec.distance * STEPS_PER_MM / 2
-    grown = float(shapely.area(shapely.buffer(kit.outlines, half, quad_segs=4)).min())
-    discs = math.pi * float(kit.radii[:, 0].min() + half) ** 2
-    by_area, by_discs = torus.area / grown / images, torus.area / discs / images
-    at = f"at a distance of {format_mm(spec.distance)} mm, expected fewer, or smaller marks"
-    most = int(min(by_area, by_discs * DENSEST))
-    if 0 < most < spec.count:
-        raise GeometryError(f"count = {spec.count}: by their area alone no more than {most} fit {at}")
-    most = int(min(by_area * CLOSEST, by_discs * CLOSEST_DISCS))
-    if isinstance(spec, Toss) and spec.count >= MANY and most < spec.count:
-        raise GeometryError(f"count = {spec.count}: no toss is so close that more than {most} fit {at}")
-
-
-def _rules(spec: Scattered, motifs: int) -> Rules:
-    if spec.weights and len(spec.weights) != motifs:
-        listed = ", ".join(f"{weight:g}" for weight in spec.weights[:8])
-        raise GeometryError(f"weights = [{listed}]: expected one for each motif, {motifs} in all")
-    weights = np.array(spec.weights or (1.0,) * motifs)
-    return Rules(
-        spec.turn, spec.turns, (1.0, spec.size[1] / spec.size[0]), spec.flip, weights / weights.sum()
-    )
-
-
 def _filled(scatter: Scatter, spec: Toss, marks: Marks, dice: Dice) -> int:
     """Throw and settle until the scatter is as the spec asks; return how many darts that took."""
-    rules = _rules(spec, len(marks.names))
+    rules = rules_of(spec, len(marks.names))
     plan = Plan.of(spec, marks.bodies, rules, scatter)
     distance = spec.distance * STEPS_PER_MM
     darts = 0
