@@ -170,6 +170,14 @@ class Page:
         """Return the field of a key."""
         return self.page.locator(f'[data-path="{path}"] input').last
 
+    def says(self, path: str, value: object) -> None:
+        """Wait until the field of a key says something: panels follow the picture."""
+        sought = f'[data-path="{path}"] input'
+        self.page.wait_for_function(
+            "([sought, value]) => [...document.querySelectorAll(sought)].at(-1)?.value === value",
+            arg=[sought, str(value)],
+        )
+
     def choose(self, words: str, title: str) -> None:
         """Search the library, and open what is found."""
         self.page.get_by_label("Search the library").fill(words)

@@ -57,12 +57,10 @@ def test_a_pattern_is_designed_saved_and_exported(chromium: Any, tmp_path: Path)
             page.page.keyboard.press("ArrowLeft")
         moved = page.settled(first)
         page.page.wait_for_timeout(800)
-        said = float(page.field(PETAL).input_value())
-        assert said < 1
+        assert float(page.field(PETAL).input_value()) < 1
         page.page.get_by_role("button", name="Undo").click()
         page.settled(moved)
-        page.page.wait_for_timeout(800)
-        assert float(page.field(PETAL).input_value()) == 1
+        page.says(PETAL, 1)
 
         # The text: what is typed is drawn, and comments stay.
         page.tab("Recipe")
