@@ -2,7 +2,8 @@
 
 One function of t draws a chamber: a rounded box in logarithmic polar coordinates, where to grow is to move.
 Thirty-four of them, each turned by 17° and larger by a twentieth, are the shell, and a long one is where the
-animal lives. Shells of both senses drift among stars and bubbles in a lagoon; rows of dots follow all of it.
+animal lives. Shells of both senses and two sizes turn over one another among stars in a lagoon; rows of
+dots follow all of them.
 
 To vary it: GROWTH (how much wider a turn is than the one before), STEP, and the power in ``rounded``.
 """
@@ -17,6 +18,7 @@ from batik_vector.tiling.layouts import FreeGround, Toss
 GROWTH = np.log(3) / (2 * np.pi)
 STEP = np.radians(17)
 CHAMBERS = 34
+DOTS = Cecek(follow="contour", spacing=2.2, width=0.9, margin=0.8, rows=2)
 
 
 def rounded(t, power=0.55):
@@ -40,7 +42,7 @@ def drawn(angle, span, **look):
 
 first = -STEP * CHAMBERS
 shell = [drawn(first + k * STEP, STEP, name="chamber", ink="cotton") for k in range(CHAMBERS)]
-shell.append(drawn(0.05, 1.8, name="home", ink="ochre"))
+shell.append(drawn(0.05, 1.8, name="home", ink="ochre", fill_with=DOTS))
 shell += [drawn(angle, 0.07, name="growth", treatment="cut") for angle in (0.62, 0.98, 1.30, 1.56)]
 
 
@@ -83,9 +85,18 @@ recipe = Recipe(
         "pearl": ring(1.2, "ochre"),
     },
     place=[
-        Placement(motif="shell", scale=0.66, at=(28.0, 26.0), turn=20),
-        Placement(motif="star", scale=0.85, layout=Toss(distance=2.2, clear="all", turn=(-180, 180))),
-        Placement(motif=["bubble", "pearl"], scale=1, layout=Toss(distance=3, clear="all", size=(0.6, 1))),
+        Placement(motif="shell", scale=0.68, at=(28.0, 26.0), turn=20),
+        Placement(
+            motif="shell", scale=0.24, layout=Toss(distance=1.5, clear="all", count=1, tries=30, settle=0)
+        ),
+        Placement(
+            motif="star", scale=0.85, layout=Toss(distance=1.6, clear="all", count=2, tries=30, settle=0)
+        ),
+        Placement(
+            motif=["bubble", "pearl"],
+            scale=1,
+            layout=Toss(distance=2, clear="all", count=4, tries=20, settle=0),
+        ),
         Placement(
             ink="ripple",
             layout=FreeGround(),
