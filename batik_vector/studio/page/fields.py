@@ -32,9 +32,7 @@ def shown(value: Any) -> str:
         return short if float(short) == value else str(value)
     if isinstance(value, float):
         return f"{value:.6g}" if math.isfinite(value) else ""
-    if value == []:
-        return ""
-    if isinstance(value, list) and all(isinstance(each, str) for each in value):
+    if isinstance(value, list) and value and all(isinstance(each, str) for each in value):
         words = ", ".join(value)
         return words if read(words) == value else spelled(value)
     return value if isinstance(value, str) else spelled(value)
