@@ -128,12 +128,16 @@ def _moved(areas: Outlines, waver: Waver, step: float) -> Geometries:
 
 
 def _strokes(lines: Outlines, width: float, waver: Waver, spec: HandProcess, step: float) -> Geometries:
-    """Return lines as a hand draws them, as broad as asked where they are drawn to the tile's edge, too."""
+    """Return lines as a hand draws them, as broad as asked where they are drawn to the tile's edge, too.
+
+    They are united: where lines lie close together, their many bends and ends cross one another very often.
+    """
     made = strokes(lines, width, waver, spec, step)
     clear = clear_of_seams(made, waver.cell, step)
-    if clear is made:
-        return made
-    return clear_of_seams(strokes(lines, width, waver, spec, step, 2.0 * BESIDE), waver.cell, step)
+    if clear is not made:
+        made = strokes(lines, width, waver, spec, step, 2.0 * BESIDE)
+        clear = clear_of_seams(made, waver.cell, step)
+    return oriented(polygonal(shapely.union_all(clear, grid_size=1)))
 
 
 def _spouts(areas: Geometries, waver: Waver, step: float, radius: float, cell: Cell) -> Geometries:

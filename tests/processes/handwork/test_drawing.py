@@ -8,9 +8,10 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from batik_vector.artwork import Artwork, Layer, violations
+from batik_vector.artwork import Artwork, Geometries, Layer, violations
 from batik_vector.certificate import certify
 from batik_vector.errors import GeometryError
+from batik_vector.geometry.arrangement import Arrangement, arranged
 from batik_vector.machines import Machine
 from batik_vector.processes.handwork.options import HandProcess
 from tests.processes.handwork.tiles import COTTON, SOGA, on_grid, random_tile, rings, steps, tile
@@ -173,3 +174,17 @@ def test_any_tile_keeps_its_seam(number: int) -> None:
     page = random_tile(number)
     done = drawn(page, strength=number % 5 / 4, seed=number, reach=(4.0, 9.0, 20.0)[number % 3])
     assert certify(done).faults == ()
+
+
+def test_lines_that_lie_close_together_are_united_before_all_else(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each of their bends and ends would cross all others: of one random recipe that took 40 s."""
+    given: list[int] = []
+
+    def counted(layers: list[Geometries], box: tuple[int, int, int, int]) -> Arrangement:
+        given.append(sum(map(len, layers)))
+        return arranged(layers, box)
+
+    monkeypatch.setattr("batik_vector.processes.handwork.drawing.arranged", counted)
+    sharp = [shapely.LineString([(20 + k / 5, 20), (30, 21 + k / 5), (20 + k / 5, 22)]) for k in range(20)]
+    (layer,) = drawn(tile(Layer(COTTON, lines=np.array(sharp)))).layers
+    assert given == [1] == [len(layer.areas)]
