@@ -23,12 +23,12 @@ from batik_vector.recipe.fills import Style
 from batik_vector.recipe.fills.isen import RULES, chosen
 from batik_vector.recipe.palettes import PALETTES
 from tests.calling import runner
-from tests.drafting.drawings import BIRD, GOOD, HOUSE, UNFIT
+from tests.drafting.drawings import BIRD, GOOD, HOUSE, UNFIT, svg
 from tests.thorough import examples, long
 
 
 def without_ground(text: str) -> str:
-    """Return a recipe without what is strewn round the motif: that is a toss, and takes its time."""
+    """Return a recipe without what fills the ground round the motif, which takes its time."""
     text = re.sub(r"\[\[place\]\] +# what is left.*?(?=\[tile\])", "", text, flags=re.DOTALL)
     return re.sub(r"\[motif\.(sprinkle|cecek)\].*?\n\]\n", "", text, flags=re.DOTALL)
 
@@ -73,6 +73,33 @@ def test_the_ground_is_filled_round_the_motif() -> None:
     assert sum(len(layer.areas) for layer in strewn.layers) > 40 + sum(
         len(layer.areas) for layer in bare.layers
     )
+
+
+def test_each_style_has_a_ground_of_its_own_where_there_is_room() -> None:
+    def ground(style: str, width: float) -> str:
+        return batified(GOOD["fish"], style, width=width).text.partition("# what is left of the ground")[2]
+
+    assert "angle = 30" in ground("solo", 90)
+    assert 'follow = "scatter"' in ground("solo", 25)
+    assert 'follow = "scatter"' in ground("miao", 90)
+    assert 'kind = "toss"' in ground("pesisir", 90)
+    # Between copies of a square that is so small no dot has room.
+    small = batified(svg('<rect width="90" height="90" fill="#333"/>'), "miao", width=14).text
+    assert 'kind = "ground"' not in small
+
+
+def test_isen_are_chosen_by_what_lines_leave_of_a_cell() -> None:
+    """Of a deep cell lines may leave so little that what suits its depth has no room."""
+    lines = "".join(f"M12 {y}H108" for y in range(15, 110, 5))
+    batik = batified(
+        svg(
+            '<rect x="10" y="10" width="100" height="100" fill="#d9a441"/>'
+            f'<path d="{lines}" fill="none" stroke="#000" stroke-width="1"/>'
+        ),
+        "miao",
+        width=60,
+    )
+    assert certify(made(batik)).passed
 
 
 def test_lines_that_nearly_meet_close_round_cells() -> None:

@@ -12,18 +12,20 @@ import shapely
 
 from batik_vector.artwork import Geometries
 from batik_vector.drafting.batik.cells import Cell, Cells, cells_of
-from batik_vector.drafting.batik.hands import HANDS, Colours, is_grey
+from batik_vector.drafting.batik.hands import HANDS, Colours, Hand, is_grey
 from batik_vector.drafting.batik.outlines import open_lines, outlines
 from batik_vector.drafting.batik.pages import Filled, Sketch, drawing, recipe
 from batik_vector.errors import Fault, GeometryError, UnknownNameError
 from batik_vector.geometry.fills.insets import Parts, inset, whole
 from batik_vector.geometry.maps.affine import Affine
 from batik_vector.geometry.paths.outline import bounds_of, joined
+from batik_vector.geometry.regions import oriented
 from batik_vector.importing.document import DrawingError, load, parse
 from batik_vector.importing.drawing.marks import Mark, Wanted, picked, read_drawing
 from batik_vector.recipe.fills import Fill, Room, Sisik, Style
 from batik_vector.recipe.fills.base import Angled
 from batik_vector.recipe.fills.isen import RULES, chosen, measured
+from batik_vector.recipe.fills.marks import Rows
 from batik_vector.recipe.palettes import PALETTES
 from batik_vector.values import frozen
 
@@ -35,6 +37,8 @@ SPARE, FEW, ROUGH = 0.2, 4, 0.05
 """mm of margin more, and the least marks, that a fill must have room for; mm to which that is tried."""
 STEP = 1.0
 """mm by which copies are moved towards one another."""
+ROWS_CLOSE = 40.0
+"""mm of the repeat from which rows of dots surely close on it; on less the dots are tossed."""
 
 
 @frozen(eq=False)
@@ -98,7 +102,8 @@ def batified(
     title = name or (Path(called).stem if not isinstance(source, bytes) else "motif")
     motif, filled, lines = _centred(filled, cells.lines)
     drawn = [*outlines(filled), *((line, colours.line) for line in open_lines(lines))]
-    sketch = Sketch(title, Style(style), colours, filled, drawn, _tile(motif), beside)
+    tile = _tile(motif)
+    sketch = Sketch(title, Style(style), colours, filled, drawn, tile, _ground(hand, motif, tile), beside)
     words = dict.fromkeys(colours.palette.words[each.ink] for each in filled)
     return Batik(
         recipe(sketch),
@@ -121,12 +126,22 @@ def _filled(cells: Cells, style: Style, colours: Colours, coloured: bool) -> lis
     """Return the cells with their colours and isen."""
     inks = _inks(cells.cells, colours, coloured)
     shapes = np.array([cell.shape for cell in cells.cells], dtype=object)
-    inner = inset(whole(shapes), colours.hand.canting / 2)
+    inner = _beside_lines(inset(whole(shapes), colours.hand.canting / 2), cells.lines, colours.hand.canting)
     fills = _isen(inner, len(shapes), style)
     return [
         Filled(cell.shape, cell.name, ink, colours.line_round(ink), fill, colours.isen_on(ink))
         for cell, ink, fill in zip(cells.cells, inks, fills, strict=True)
     ]
+
+
+def _beside_lines(parts: Parts, lines: Geometries, width: float) -> Parts:
+    """Return what lines that lie over cells leave of their insides: isen are set down beside them alone."""
+    if not len(lines) or not len(parts.shapes):
+        return parts
+    bodies = shapely.union_all(shapely.buffer(lines, width / 2))
+    shapes, of = shapely.get_parts(shapely.difference(parts.shapes, bodies), return_index=True)
+    there = shapely.area(shapes) > 0
+    return Parts(oriented(shapes[there]), parts.region[of[there]])
 
 
 def _inks(cells: tuple[Cell, ...], colours: Colours, coloured: bool) -> list[int]:
@@ -207,6 +222,22 @@ def _tile(motif: shapely.Geometry) -> tuple[float, float]:
         motif, right - left, lambda side: [(side, height / 2), (side, -height / 2), (2 * side, 0.0)]
     )
     return across, height
+
+
+def _ground(hand: Hand, motif: shapely.Geometry, tile: tuple[float, float]) -> Fill | None:
+    """Return what fills the ground of a half-drop unit; None where sprigs are strewn, or it has no room."""
+    fill = hand.round_it
+    if fill is None:
+        return None
+    if min(tile) < ROWS_CLOSE:
+        fill = replace(fill, follow=Rows.SCATTER, angle=0.0)
+    across, up = tile
+    taken = shapely.buffer(motif, hand.canting / 2 + fill.margin + fill.width / 2 + SPARE)
+    shifts = [(i * across, (j + i / 2) * up) for i in (-1, 0, 1) for j in (-2, -1, 0, 1, 2)]
+    copies = np.concatenate([Affine.translation(move).apply(np.array([taken])) for move in shifts])
+    unit = shapely.box(-across / 2, -up / 2, across / 2, up / 2)
+    left = shapely.area(shapely.difference(unit, shapely.union_all(copies)))
+    return fill if left >= FEW * fill.spacing**2 else None
 
 
 def _closest(

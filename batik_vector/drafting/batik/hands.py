@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from batik_vector.artwork.overdyeing import difference
-from batik_vector.recipe.fills import Style
+from batik_vector.recipe.fills import Cecek, Style
+from batik_vector.recipe.fills.marks import Rows
 from batik_vector.recipe.palettes import Palette, lightness
 from batik_vector.values import frozen
 
@@ -21,7 +22,8 @@ class Hand:
 
     Colours are numbers in a palette, the lightest first; negative ones count from the darkest. ``ground`` is
     the cloth, ``line`` draws outlines, ``uncoloured`` are dealt to what the drawing gives no colour.
-    ``canting`` is the breadth of outlines in mm.
+    ``canting`` is the breadth of outlines in mm. ``round_it`` fills the ground round the motif; where it is
+    None, sprigs are strewn there.
     """
 
     palette: str
@@ -29,14 +31,34 @@ class Hand:
     line: int
     uncoloured: tuple[int, ...]
     canting: float
+    round_it: Cecek | None
     about: str
 
 
 HANDS: Mapping[Style, Hand] = {
-    Style.SOLO: Hand("solo", -1, 0, (2, 0, 1, 2), 0.9, "inland Java: cream lines on a blue-black ground"),
-    Style.PESISIR: Hand("pekalongan", 0, -1, (1, 2, 3), 0.7, "the coast: dark lines on an ivory ground"),
-    Style.MIAO: Hand("guizhou", -1, 0, (0, 2, 1), 1.2, "Guizhou: white lines on a dark indigo ground"),
+    Style.SOLO: Hand(
+        "solo",
+        -1,
+        0,
+        (2, 0, 1, 2),
+        0.9,
+        Cecek(angle=30, spacing=2.3, width=0.75, margin=1.0),
+        "inland Java: cream lines on a blue-black ground",
+    ),
+    Style.PESISIR: Hand(
+        "pekalongan", 0, -1, (1, 2, 3), 0.7, None, "the coast: dark lines on an ivory ground"
+    ),
+    Style.MIAO: Hand(
+        "guizhou",
+        -1,
+        0,
+        (0, 2, 1),
+        1.2,
+        Cecek(follow=Rows.SCATTER, spacing=2.8, width=1.0, margin=1.0),
+        "Guizhou: white lines on a dark indigo ground",
+    ),
 }
+"""Grounds: dots in close even rows inland, dots here and there in Guizhou, sprigs on the coast."""
 
 
 def is_grey(colour: str) -> bool:

@@ -49,7 +49,11 @@ Line: TypeAlias = tuple[shapely.LineString, int]
 
 @frozen(eq=False)
 class Sketch:
-    """All that is to be written; ``tile`` is the half-drop unit in mm, ``beside`` the drawing's file."""
+    """All that is to be written.
+
+    ``tile`` is the half-drop unit in mm, ``ground`` what fills the ground, None where sprigs are strewn on
+    it, and ``beside`` the drawing's file.
+    """
 
     title: str
     style: Style
@@ -57,6 +61,7 @@ class Sketch:
     cells: list[Filled]
     lines: list[Line]
     tile: tuple[float, float]
+    ground: Fill | None
     beside: str
 
     def word(self, number: int) -> str:
@@ -126,7 +131,7 @@ def _paths(sketch: Sketch) -> Iterator[str]:
 
 def recipe(sketch: Sketch) -> str:
     """Return the recipe as a page of TOML."""
-    return "\n".join([*_head(sketch), *_motif(sketch), *_ground(sketch), *_places(sketch), ""])
+    return "\n".join([*_head(sketch), *_motif(sketch), *_strewn(sketch), *_places(sketch), ""])
 
 
 def _head(sketch: Sketch) -> Iterator[str]:
@@ -204,31 +209,23 @@ def _spelled(fill: Fill, ink: str) -> str:
     return f"{{ {', '.join(parts)} }}"
 
 
-_GROUNDS = {
-    Style.SOLO: (
-        '{ curve = { kind = "circle", radius = 0.42 }, count = 6, radius = 1.35, INK },',
-        '{ curve = { kind = "circle", radius = 0.5 }, INK },',
-    ),
-    Style.PESISIR: (
+_STREWN = (
+    (
+        "sprinkle",
         '{ curve = { kind = "superellipse", a = 1.0, b = 1.35, length = 1.5, width = 0.6 }, count = 3, '
         "radius = 1.9, turn = -64, arc = 192, INK },",
         '{ curve = { kind = "circle", radius = 0.45 }, radius = -0.6, INK },',
     ),
-    Style.MIAO: (
-        '{ curve = { kind = "superellipse", a = 1.0, b = 1.35, length = 1.15, width = 0.5 }, count = 4, '
-        "radius = 1.6, INK },",
-        '{ curve = { kind = "circle", radius = 0.45 }, INK },',
-    ),
-}
-"""What is strewn on the ground of each style, in mm: *cecek pitu* (seven dots), sprigs, little stars."""
+    ("cecek", '{ curve = { kind = "circle", radius = 0.55 }, INK },'),
+)
+"""What is strewn on a ground, in mm: sprigs, and dots between them."""
 
 
-def _ground(sketch: Sketch) -> Iterator[str]:
+def _strewn(sketch: Sketch) -> Iterator[str]:
+    if sketch.ground is not None:
+        return
     ink = f"ink = {quoted(sketch.word(sketch.sprinkled))}"
-    for name, elements in (
-        ("sprinkle", _GROUNDS[sketch.style]),
-        ("cecek", ('{ curve = { kind = "circle", radius = 0.55 }, INK },',)),
-    ):
+    for name, *elements in _STREWN:
         yield ""
         yield f"[motif.{name}]"
         yield 'kind = "rosette"'
@@ -245,9 +242,13 @@ def _places(sketch: Sketch) -> Iterator[str]:
     yield 'scale = "1 mm"                # as large as it is drawn'
     yield ""
     yield "[[place]]                     # what is left of the ground, filled round it"
-    yield 'motif  = ["sprinkle", "cecek"]'
-    yield 'scale  = "1 mm"'
-    yield 'layout = { kind = "toss", distance = "1.5 mm", clear = "all", weights = [1, 2] }'
+    if sketch.ground is None:
+        yield 'motif  = ["sprinkle", "cecek"]'
+        yield 'scale  = "1 mm"'
+        yield 'layout = { kind = "toss", distance = "1.5 mm", clear = "all", weights = [1, 2] }'
+    else:
+        yield 'layout    = { kind = "ground" }'
+        yield f"fill_with = {_spelled(sketch.ground, sketch.word(sketch.sprinkled))}"
     yield ""
     yield "[tile]"
     yield f'size   = ["{number(across)} mm", "{number(up)} mm"]'
