@@ -137,6 +137,7 @@ def rows(results: Results, plan: Plan, said: str = "") -> list[Row]:
         _library,
         _sweep,
         _grown,
+        _fill,
         _plotted,
         _order,
         _hatch,
@@ -301,6 +302,22 @@ def _grown(asked: Asked, plan: Plan) -> Iterator[Row]:
     side = f"{plan.samples:,}"
     words = f"a field of {side} × {side} samples to smooth rings ≥ 2× faster than matplotlib's contours"
     yield asked.faster(12, words, "mandelbrot ringed/matplotlib", f"mandelbrot ringed/{BATIK}", 2)
+
+
+def _fill(asked: Asked, plan: Plan) -> Iterator[Row]:
+    yield asked.below(14, f"a fill of {plan.dots:,} dots < 0.5 s of CPU", f"fill cecek/{BATIK}", 0.5)
+    for kind in ("cecek", "galaran"):
+        words = f"{kind} ≥ 20× faster than a script of vsketch with shapely"
+        yield asked.faster(14, words, f"fill {kind}/vsketch", f"fill {kind}/{BATIK}", 20)
+    side = f"{plan.packed} × {plan.packed} mm"
+    words = f"twelve leaves packed 1 mm apart on {side} in < 10 s of CPU"
+    yield asked.below(14, words, "leaves/pack", 10.0)
+    yield asked.fact(
+        14, "and cover ≥ 60 %", "leaves/pack drawn", "covers", lambda n: isinstance(n, float) and n >= 60
+    )
+    yield asked.fact(
+        14, "no nearer than 1 mm", "leaves/pack drawn", "gap", lambda n: isinstance(n, float) and n >= 1
+    )
 
 
 def _plotted(asked: Asked, plan: Plan) -> Iterator[Row]:

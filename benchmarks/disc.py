@@ -1,30 +1,23 @@
-"""The disc with a hole that fills are timed on, and how. Needs nothing of batik_vector: peers run apart."""
+"""The disc with a hole that fills are timed on. Needs nothing of batik_vector: peers run apart."""
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable
+import math
 
 import shapely
 
-TIMES = 5
 SPACING, WIDTH, MARGIN = 0.85, 0.4, 0.7
+"""Of dots, in mm."""
 LINES = 0.2
 """Spacing of the parallel lines, of which there are fewer, in mm."""
+DOTS = 100_000
+"""How many dots a disc of 300 mm has, about."""
 
 
-def region() -> shapely.Polygon:
-    """Return a disc of 300 mm with a round hole."""
-    disc = shapely.Point(0, 0).buffer(150, quad_segs=64)
-    found: shapely.Polygon = disc.difference(shapely.Point(50, 20).buffer(30, quad_segs=40))  # type: ignore[assignment]
+def region(dots: int = DOTS) -> shapely.Polygon:
+    """Return a disc with a round hole, so large that it has about so many dots."""
+    size = math.sqrt(dots / DOTS)
+    disc = shapely.Point(0, 0).buffer(150 * size, quad_segs=64)
+    hole = shapely.Point(50 * size, 20 * size).buffer(30 * size, quad_segs=40)
+    found: shapely.Polygon = disc.difference(hole)  # type: ignore[assignment]
     return found
-
-
-def least(work: Callable[[], int], times: int = TIMES) -> tuple[float, int]:
-    """Return the least CPU time of several runs, and how many marks were made."""
-    found = []
-    for _ in range(times):
-        begin = time.process_time()
-        count = work()
-        found.append(time.process_time() - begin)
-    return min(found), count

@@ -1,20 +1,25 @@
-"""Fills of a disc with a hole: ours, beside a loop over marks with shapely, as scripts for vsketch have it.
+"""Fills of a disc with a hole, beside a loop over marks with shapely; and leaves packed, beside a toss.
 
-python -m benchmarks.filling cecek        dots in rows, about 10^5
-python -m benchmarks.filling galaran      parallel lines
-python -m benchmarks.filling KIND         any other kind, ours alone
-python -m benchmarks.filling pack         twelve leaves packed a millimetre apart on 300 × 300 mm, and tossed
+python -m benchmarks.filling cecek 100000          dots in rows, about so many
+python -m benchmarks.filling galaran 100000 loop   parallel lines in the same disc, one by one
+python -m benchmarks.filling KIND 100000           any other kind, as it is by default
+python -m benchmarks.filling pack 300              twelve leaves a millimetre apart on 300 × 300 mm
+python -m benchmarks.filling toss 300              the same leaves tossed
 
-``benchmarks.peers.vsketch_fill`` has the same as a sketch of vsketch.
-
-Both make the same marks as areas, at the same spacing, width and margin; the loop prepares its region.
+One word more, ``drawn``, tells how many marks that are, and of leaves how much they cover.
+``benchmarks.peers.vsketch_fill`` has the fills as sketches of vsketch. All make the same marks as areas, at
+the same spacing, width and margin; the loops prepare their region.
 """
 
 from __future__ import annotations
 
+import json
 import math
 import sys
-import time
+from collections.abc import Callable, Mapping
+from functools import partial
+from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 import shapely
@@ -27,8 +32,13 @@ from batik_vector.tiling.layouts import Pack, Toss
 from batik_vector.tiling.tossing.marks import Field
 from batik_vector.tiling.tossing.scatter import Torus
 from batik_vector.tiling.tossing.toss import Marks, toss
-from benchmarks.disc import LINES, MARGIN, SPACING, WIDTH, least, region
+from benchmarks.disc import LINES, MARGIN, SPACING, WIDTH, region
+from benchmarks.peers.drawn import often, tell
 from tests.tiling.tossing.leaves import LEAVES
+
+WARM = 100
+"""Dots of the disc that warms up."""
+LAYOUTS: Mapping[str, type[Pack | Toss]] = MappingProxyType({"pack": Pack, "toss": Toss})
 
 
 def dots_by_loop(shape: shapely.Polygon) -> int:
@@ -59,39 +69,52 @@ def lines_by_loop(shape: shapely.Polygon) -> int:
     return len(found)
 
 
+LOOPS: Mapping[str, Callable[[shapely.Polygon], int]] = MappingProxyType(
+    {"cecek": dots_by_loop, "galaran": lines_by_loop}
+)
+
+
+def fill_of(kind: str) -> Fill:
+    """Return a fill, such as the loops make it where there is one."""
+    if kind == "cecek":
+        return Cecek(spacing=SPACING, width=WIDTH, margin=MARGIN)
+    if kind == "galaran":
+        return Galaran(spacing=LINES, width=LINES / 2, margin=MARGIN)
+    return FILLS[kind]()
+
+
 def ours(fill: Fill, shape: shapely.Polygon) -> int:
     """Fill a region with all marks at once."""
     return len(fill.lay(Room(whole(np.array([shape])), np.zeros((1, 2)), 1, 0.02, 1))[0])
 
 
-def main(kind: str) -> None:
-    """Tell what a fill takes."""
-    shape = region()
-    dots, lines = (
-        Cecek(spacing=SPACING, width=WIDTH, margin=MARGIN),
-        Galaran(spacing=LINES, width=LINES / 2, margin=MARGIN),
-    )
-    fill: Fill = {"cecek": dots, "galaran": lines}.get(kind) or FILLS[kind]()
-    seconds, count = least(lambda: ours(fill, shape))
-    print(f"{kind}: {count:,} marks in {seconds:.3f} s of CPU")
-    loops = {"cecek": dots_by_loop, "galaran": lines_by_loop}
-    if kind in loops:
-        slow, made = least(lambda: loops[kind](shape))
-        print(f"a loop with shapely: {made:,} marks in {slow:.3f} s, {slow / seconds:.0f} times as long")
+def leaves(layout: str, side: int) -> dict[str, Any]:
+    """Set leaves down on a tile with sides in mm; return how many, and how much they cover."""
+    torus, nothing = Torus(Cell(1000 * side, 1000 * side).lattice), Field.of(np.empty(0, dtype=object))
+    marks = Marks(tuple("abcdefghijkl"), LEAVES, 0.03)
+    report = toss(LAYOUTS[layout](distance=1.0), marks, torus, nothing, 1).report
+    covers = round(100 * float(report.covers), 1)
+    return {"marks": sum(report.counts), "covers": covers, "gap": report.distance}
 
 
-def packing() -> None:
-    """Tell what packing takes and covers, and what a toss does."""
-    for spec in (Pack(distance=1.0), Toss(distance=1.0)):
-        begin = time.process_time()
-        torus, nothing = Torus(Cell(300_000, 300_000).lattice), Field.of(np.empty(0, dtype=object))
-        report = toss(spec, Marks(tuple("abcdefghijkl"), LEAVES, 0.03), torus, nothing, 1).report
-        seconds = time.process_time() - begin
-        print(
-            f"{spec.kind}: {sum(report.counts)} marks cover {100 * report.covers:.1f} %, least gap "
-            f"{report.distance:g} mm, in {seconds:.1f} s of CPU"
-        )
+def filled(kind: str, by_loop: bool, shape: shapely.Polygon) -> dict[str, Any]:
+    """Fill a region; return how many marks there are."""
+    return {"marks": LOOPS[kind](shape) if by_loop else ours(fill_of(kind), shape)}
+
+
+def main(kind: str, size: int, ways: list[str]) -> None:
+    """Fill, and tell what that took or what was made."""
+    if kind in LAYOUTS:
+        part, made = often(lambda: size, partial(leaves, kind))
+    else:
+        work = partial(filled, kind, "loop" in ways)
+        work(region(WARM))
+        part, made = often(partial(region, size), work)
+    if "drawn" in ways:
+        print(json.dumps(made))
+    else:
+        tell({"": part})
 
 
 if __name__ == "__main__":
-    packing() if sys.argv[1] == "pack" else main(sys.argv[1])
+    main(sys.argv[1], int(sys.argv[2]), sys.argv[3:])

@@ -33,6 +33,7 @@ SECTIONS: Mapping[str, Callable[[Plan], list[Contest]]] = MappingProxyType(
         "library": designing.library,
         "sweep": designing.sweep,
         "grown": designing.grown,
+        "fill": designing.fill,
     }
 )
 """The sections by name, in the order in which they run."""
@@ -45,6 +46,7 @@ FACTS: Mapping[str, Callable[[Plan], list[Fact]]] = MappingProxyType(
         "order": producing.order_facts,
         "hatch": producing.hatch_facts,
         "cut": producing.cut_facts,
+        "fill": designing.fill_facts,
     }
 )
 """What is to be found out about the files of a section, once."""

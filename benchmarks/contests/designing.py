@@ -1,8 +1,8 @@
-"""Contests of a designer's work: drawings of one's own, a library, sweeps, grown lines."""
+"""Contests of a designer's work: drawings of one's own, a library, sweeps, grown lines, fills."""
 
 from __future__ import annotations
 
-from benchmarks.contests.entrants import BATIK, Contest, Entrant, own, peer
+from benchmarks.contests.entrants import BATIK, Contest, Entrant, Fact, own, peer
 from benchmarks.contests.plans import Plan
 from benchmarks.drawing import TIMES, size
 from benchmarks.timing import OWN, PEERS
@@ -114,4 +114,35 @@ def grown(plan: Plan) -> list[Contest]:
         Contest("hilbert walked", line, plan.rounds),
         *strokes,
         Contest("mandelbrot ringed", ringed, plan.rounds),
+    ]
+
+
+def fill(plan: Plan) -> list[Contest]:
+    """Dots in rows and parallel lines that fill a disc, and leaves that fill a tile."""
+    size, side = str(plan.dots), str(plan.packed)
+    fills = [
+        Contest(
+            f"fill {kind}",
+            (
+                Entrant(BATIK, BATIK, own("filling", kind, size), True),
+                Entrant("loop", "a loop with shapely", own("filling", kind, size, "loop"), True),
+                Entrant("vsketch", "a sketch of vsketch, shapely", peer("vsketch_fill", kind, size), True),
+            ),
+            plan.rounds,
+        )
+        for kind in ("cecek", "galaran")
+    ]
+    leaves = tuple(
+        Entrant(name, f'`layout = {{ kind = "{name}" }}`', own("filling", name, side), True)
+        for name in ("pack", "toss")
+    )
+    return [*fills, Contest("leaves", leaves, plan.rounds)]
+
+
+def fill_facts(plan: Plan) -> list[Fact]:
+    """How many marks were made, and what leaves cover."""
+    return [
+        Fact(f"{contest.name}/{entrant.name} drawn", (*entrant.command, "drawn"))
+        for contest in fill(plan)
+        for entrant in contest.entrants
     ]

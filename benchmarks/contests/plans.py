@@ -37,6 +37,10 @@ class Plan:
     """Level of the dragon: 16 writes 131,071 symbols, beyond which others take minutes."""
     samples: int
     """Samples across and up a field whose rings are drawn."""
+    dots: int
+    """Dots of a fill."""
+    packed: int
+    """Sides in mm of a tile that leaves are packed on."""
     rounds: int
     """How often everything runs."""
     starts: int
@@ -58,6 +62,8 @@ FULL = Plan(
     hilbert=9,
     dragon=16,
     samples=2_000,
+    dots=100_000,
+    packed=300,
     rounds=5,
     starts=11,
 )
@@ -77,6 +83,8 @@ QUICK = Plan(
     hilbert=5,
     dragon=8,
     samples=200,
+    dots=1_000,
+    packed=100,
     rounds=2,
     starts=3,
 )

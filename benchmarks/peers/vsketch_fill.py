@@ -1,18 +1,24 @@
 """vsketch with shapely: a disc with a hole filled with dots or lines, as sketches do it, mark by mark.
 
-python -m benchmarks.peers.vsketch_fill cecek
-python -m benchmarks.peers.vsketch_fill galaran
+python -m benchmarks.peers.vsketch_fill cecek 100000
+python -m benchmarks.peers.vsketch_fill galaran 100000 drawn     how many lines those are
 """
 
 from __future__ import annotations
 
+import json
 import math
 import sys
+from functools import partial
 
 import shapely
 import vsketch
 
-from benchmarks.disc import LINES, MARGIN, SPACING, WIDTH, least, region
+from benchmarks.disc import LINES, MARGIN, SPACING, WIDTH, region
+from benchmarks.peers.drawn import often, tell
+
+WARM = 100
+"""Dots of the disc that warms up."""
 
 
 def sketch() -> vsketch.Vsketch:
@@ -23,9 +29,9 @@ def sketch() -> vsketch.Vsketch:
     return found
 
 
-def dots() -> int:
+def dots(shape: shapely.Polygon) -> int:
     """Draw a circle wherever a place of the lattice lies within."""
-    page, inner = sketch(), region().buffer(-MARGIN - WIDTH / 2)
+    page, inner = sketch(), shape.buffer(-MARGIN - WIDTH / 2)
     shapely.prepare(inner)
     x0, y0, x1, y1 = inner.bounds
     pitch, count = SPACING * math.sqrt(0.75), 0
@@ -39,9 +45,9 @@ def dots() -> int:
     return count
 
 
-def lines() -> int:
+def lines(shape: shapely.Polygon) -> int:
     """Draw what of each parallel line lies within, as a stroke with a body."""
-    page, inner = sketch(), region().buffer(-MARGIN - LINES / 4)
+    page, inner = sketch(), shape.buffer(-MARGIN - LINES / 4)
     x0, y0, x1, y1 = inner.bounds
     count = 0
     for row in range(math.ceil(y0 / LINES), math.floor(y1 / LINES) + 1):
@@ -52,6 +58,16 @@ def lines() -> int:
     return count
 
 
+def main(kind: str, size: int, drawn: bool) -> None:
+    """Fill the disc, and tell what that took or how many marks there are."""
+    work = {"cecek": dots, "galaran": lines}[kind]
+    work(region(WARM))
+    part, marks = often(partial(region, size), work)
+    if drawn:
+        print(json.dumps({"marks": marks}))
+    else:
+        tell({"": part})
+
+
 if __name__ == "__main__":
-    seconds, made = least({"cecek": dots, "galaran": lines}[sys.argv[1]], 1)
-    print(f"vsketch with shapely: {made:,} marks in {seconds:.3f} s of CPU")
+    main(sys.argv[1], int(sys.argv[2]), sys.argv[3:] == ["drawn"])

@@ -38,6 +38,7 @@ TITLES: Mapping[str, str] = MappingProxyType(
         "library": "The library",
         "sweep": "A sweep",
         "grown": "L-systems and contours",
+        "fill": "Fills and packing",
     }
 )
 
@@ -68,6 +69,7 @@ SHOWN: Mapping[str, Callable[[Sequence[Contest], Results], Iterator[str]]] = Map
         "library": designing.library,
         "sweep": designing.sweep,
         "grown": designing.grown,
+        "fill": designing.fill,
     }
 )
 

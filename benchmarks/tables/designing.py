@@ -65,3 +65,29 @@ def grown(contests: Sequence[Contest], results: Results) -> Iterator[str]:
             body.append((entrant.says, shown, NONE if ratio is None else times(ratio)))
         yield from table((contest.name, "CPU", "ratio of CPU"), body)
         yield ""
+
+
+def fill(contests: Sequence[Contest], results: Results) -> Iterator[str]:
+    """Yield what fills cost mark by mark and all at once, and packing beside a toss."""
+    *fills, leaves = contests
+    for contest in fills:
+        body = []
+        for entrant in contest.entrants:
+            name = f"{contest.name}/{entrant.name}"
+            ratio, drawn = results.ratio(name, f"{contest.name}/{BATIK}"), results.facts.get(f"{name} drawn")
+            shown = results.missing.get(name) or cost(results, name)
+            told = NONE if ratio is None or entrant.name == BATIK else times(ratio)
+            body.append((entrant.says, shown, told, f"{drawn['marks']:,}" if drawn else NONE))
+        yield from table((contest.name.split()[-1], "CPU", "ratio of CPU", "marks"), body)
+        yield ""
+    packed: list[tuple[str, ...]] = []
+    for entrant in leaves.entrants:
+        name = f"{leaves.name}/{entrant.name}"
+        drawn = results.facts.get(f"{name} drawn")
+        made = [NONE] * 3
+        if drawn:
+            made = [f"{drawn['marks']:,}", f"{drawn['covers']} %", f"{drawn['gap']:g} mm"]
+        packed.append((entrant.says, results.missing.get(name) or cost(results, name), *made))
+    side = leaves.entrants[0].command[-1]
+    yield from table((f"twelve leaves on {side} × {side} mm", "CPU", "marks", "cover", "least gap"), packed)
+    yield ""
