@@ -100,7 +100,7 @@ def test_what_was_not_measured_says_why() -> None:
     found.missing["svg alone/vpype_svg"] = "vpype could not be installed: no wheel"
     verdicts = rows(found, FULL)
     assert {row.passed for row in verdicts} == {None}
-    assert {row.line for row in verdicts} == set(range(1, 14))
+    assert {row.line for row in verdicts} == set(range(1, 15))
     assert by_words(verdicts, "SVG writer ≥ 100×").measured == "vpype could not be installed: no wheel"
 
 
