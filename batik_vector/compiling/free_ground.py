@@ -21,6 +21,8 @@ from batik_vector.geometry.sampling import Array
 from batik_vector.recipe.fills import Fill, Room
 from batik_vector.recipe.placement import Placement
 from batik_vector.tiling.symmetry.orbits import Orbit
+from batik_vector.tiling.symmetry.repeats import TileSpec
+from batik_vector.tiling.symmetry.spread import Spread
 from batik_vector.tiling.torus import overlay
 from batik_vector.tiling.torus.torus import Lattice, Window, as_steps, clip_areas, to_mm, to_step_grid, wrap
 from batik_vector.tiling.welding.congruent import polygons
@@ -55,6 +57,22 @@ class Given(NamedTuple):
     orbit: Orbit | None = None
 
 
+def kept_orbit(placement: Placement, tiling: TileSpec) -> Orbit | None:
+    """Return the orbit of the group that the marks of a ground may keep; None where translations are all.
+
+    It is the tile's own where none is asked for and its region is known. Rows at an angle keep to none.
+    """
+    if _told(placement).basis():
+        return None
+    try:
+        orbit = tiling.orbit(placement.symmetry, spread=Spread.CUT)
+    except GeometryError:
+        if placement.symmetry:
+            raise
+        return None
+    return orbit if len(orbit.operations) > 1 else None
+
+
 def free_ground(placement: Placement, sheets: Sequence[Sheet], given: Given) -> Sheet:
     """Return the marks that fill what sheets leave free of a repeat.
 
@@ -68,39 +86,7 @@ def free_ground(placement: Placement, sheets: Sequence[Sheet], given: Given) -> 
         TooLargeError: where the marks are far too many.
     """
     fill, ink = _told(placement), _ink(placement, given.inks)
-    lattice = np.array(given.lattice, float) / STEPS_PER_MM
-    aslant = _aslant(fill, lattice)
-    # No way becomes shorter than by the least factor of the map.
-    least = float(np.linalg.svd(aslant, compute_uv=False).min())
-    inner = replace(fill, margin=fill.margin / least + ROUNDING)
-    rings = fill.basis() is None and _follows_rings(fill)
-    pad = float(np.diag(lattice).min()) / 2 if rings else 4 * fill.spacing + 2 * fill.margin
-    group = None if given.orbit is None or fill.basis() else _group(given.orbit)
-    pad += 0.0 if group is None else _beyond(group.region, lattice)
-    free, taken = _free(sheets, given, lattice, pad)
-    if group is not None and not (
-        placement.symmetry or _keep(group, free, Period(lattice, pad), given.tolerance)
-    ):
-        group = None
-    period = Period(lattice, pad, group)
-    back: Array = np.asarray(np.linalg.inv(aslant), np.float64)
-    room = Room(
-        whole(_linear(free, back)),
-        np.zeros((len(free), 2)),
-        1,
-        given.tolerance,
-        given.seed,
-        None if fill.basis() else period,
-    )
-    try:
-        marks = inner.lay(room)[0] if len(free) else np.empty(0, dtype=object)
-    except TooLargeError as error:
-        raise TooLargeError(f"fill_with.{error}") from None
-    marks = _linear(marks, aslant)
-    if group is None:
-        marks = _once(marks, fill, given.lattice, period)
-    elif given.orbit is not None:
-        marks = _imaged(marks, fill, given.orbit, period, taken)
+    marks = _laid(placement, fill, sheets, given)
     if not len(marks):
         raise GeometryError(
             f'fill_with.margin = {fill.margin:g}: no mark of "{fill.kind}" has room in what is free of the '
@@ -113,6 +99,41 @@ def free_ground(placement: Placement, sheets: Sequence[Sheet], given: Given) -> 
             "expected a larger spacing"
         )
     return Sheet(f"ground.{fill.kind}", ink, oriented(polygonal(marks)), whole=fill.whole)
+
+
+def _laid(placement: Placement, fill: Fill, sheets: Sequence[Sheet], given: Given) -> Geometries:
+    """Return the marks of a ground, each once in the repeat."""
+    lattice = np.array(given.lattice, float) / STEPS_PER_MM
+    aslant = _aslant(fill, lattice)
+    # No way becomes shorter than by the least factor of the map.
+    least = float(np.linalg.svd(aslant, compute_uv=False).min())
+    inner = replace(fill, margin=fill.margin / least + ROUNDING)
+    rings = fill.basis() is None and _follows_rings(fill)
+    pad = float(np.diag(lattice).min()) / 2 if rings else 4 * fill.spacing + 2 * fill.margin
+    group = None if given.orbit is None else _group(given.orbit)
+    pad += 0.0 if group is None else _beyond(group.region, lattice)
+    free, taken = _free(sheets, given, lattice, pad)
+    if group and not (placement.symmetry or _keep(group, free, Period(lattice, pad), given.tolerance)):
+        group = None
+    if not len(free):
+        return free
+    period = Period(lattice, pad, group)
+    back: Array = np.asarray(np.linalg.inv(aslant), np.float64)
+    room = Room(
+        whole(_linear(free, back)),
+        np.zeros((len(free), 2)),
+        1,
+        given.tolerance,
+        given.seed,
+        None if fill.basis() else period,
+    )
+    try:
+        marks = _linear(inner.lay(room)[0], aslant)
+    except TooLargeError as error:
+        raise TooLargeError(f"fill_with.{error}") from None
+    if group is not None and given.orbit is not None:
+        return _imaged(marks, fill, given.orbit, period, taken)
+    return _once(marks, fill, given.lattice, period)
 
 
 def _told(placement: Placement) -> Fill:
@@ -129,6 +150,11 @@ def _ink(placement: Placement, inks: Mapping[str, Ink]) -> Ink:
 
 def _follows_rings(fill: Fill) -> bool:
     return str(getattr(fill, "follow", "contour")) == "contour" and fill.kind != "herangan"
+
+
+def _stamped(fill: Fill) -> bool:
+    """Return whether its marks are one shape set down at places that keep their distance already."""
+    return "follow" in fill.__dataclass_fields__ and fill.whole
 
 
 def _aslant(fill: Fill, lattice: Array) -> Array:
@@ -209,7 +235,7 @@ def _imaged(marks: Geometries, fill: Fill, orbit: Orbit, period: Period, taken: 
     if not fill.whole:
         # Bands are drawn beyond the region too, so that nothing needs to be carried in from other repeats.
         return replace(orbit, periods=()).mirrored(marks)
-    if fill.kind == "sawut":
+    if not _stamped(fill):
         marks = marks[settled_marks(marks, fill.bare, period)]
     images, owner = spread(marks, period)
     near, _ = shapely.STRtree(taken).query(images, predicate="dwithin", distance=fill.margin)
@@ -225,8 +251,7 @@ def _once(marks: Geometries, fill: Fill, lattice: Lattice, period: Period) -> Ge
     if not fill.basis():
         if not _follows_rings(fill):
             return marks
-        stamped = "follow" in fill.__dataclass_fields__ and fill.whole
-        if stamped:
+        if _stamped(fill):
             return marks[period.apart(shapely.get_coordinates(shapely.centroid(marks)), fill.bare)]
         return marks[period.clear(marks, fill.bare)]
     if fill.whole:

@@ -27,7 +27,6 @@ from batik_vector.recipe.motif import Motif, Treatment
 from batik_vector.recipe.placement import Placement
 from batik_vector.tiling.layouts import Bend, FreeGround, Scattered, Share, Stripes
 from batik_vector.tiling.symmetry.orbits import TRIVIAL, Orbit
-from batik_vector.tiling.symmetry.spread import Spread
 from batik_vector.tiling.welding.congruent import vertex_count
 from batik_vector.tiling.welding.sheets import Sheet
 from batik_vector.units import GRID_MM
@@ -293,28 +292,13 @@ def _free_ground(
 ) -> Placed:
     """Do the work of :func:`place` for marks that fill what is free of the repeat."""
     # Most recipes have none.
-    from batik_vector.compiling.free_ground import Given, free_ground
+    from batik_vector.compiling.free_ground import Given, free_ground, kept_orbit
 
     lattice = recipe.tiling.repeating().lattice
-    given = Given(lattice, inks, recipe.tolerance, recipe.seed, limit, _kept_by_ground(placement, recipe))
+    kept = kept_orbit(placement, recipe.tiling)
+    given = Given(lattice, inks, recipe.tolerance, recipe.seed, limit, kept)
     sheet = free_ground(placement, [sheet for each in before for sheet in each.sheets], given)
     return Placed([sheet], vertex_count(sheet.areas))
-
-
-def _kept_by_ground(placement: Placement, recipe: Recipe) -> Orbit | None:
-    """Return the orbit of the group that the marks of a ground may keep; None where translations are all.
-
-    It is the tile's own, where its region is known.
-    """
-    if placement.fill_with is None or placement.fill_with.basis():
-        return None
-    try:
-        orbit = recipe.tiling.orbit(placement.symmetry, spread=Spread.CUT)
-    except GeometryError:
-        if placement.symmetry:
-            raise
-        return None
-    return orbit if len(orbit.operations) > 1 else None
 
 
 def _multiplied(laid: Laid, orbit: Orbit, crumb: float) -> Laid:

@@ -30,6 +30,8 @@ MAX_SIDE = 32_767
 """The longest side that cairo draws."""
 MAX_VERTICES = 5_000_000
 """Vertices that are drawn at most: cairo holds those of an ink in memory, and as many edges."""
+LARGE_PIXELS = 16_000_000
+"""Pixels from which a picture is drawn with fewer shades at borders, and packed by us: twice as fast."""
 BAND = 256
 """Rows that are packed at once."""
 AFTER_HEADER = 8 + 25
@@ -116,10 +118,10 @@ def write(page: Page, sink: BinaryIO, options: PngOptions = DEFAULTS) -> None:
             f"a preview of about {page.vertex_count:,} vertices, past the limit of {MAX_VERTICES:,}: "
             "show less cloth, or the tile"
         )
-    tile = isinstance(page, Artwork)
-    surface = drawn(_shown(page), size, options.cloth, cairo(), fine=tile)
+    large = size[0] * size[1] >= LARGE_PIXELS
+    surface = drawn(_shown(page), size, options.cloth, cairo(), fine=not large)
     chunks = physical(options.dpi) + text(page.provenance)
-    if options.cloth and not tile:
+    if options.cloth and large:
         _write_opaque(surface, sink, chunks)
     else:
         data: bytes = surface.write_to_png()

@@ -12,7 +12,7 @@ from batik_vector.errors import ExportError, UnsupportedByFormatError
 from batik_vector.export import png, svg
 from batik_vector.export.options import PngOptions, Profile, SvgOptions
 
-from .drawings import InPieces, area_of, sample, stacked
+from .drawings import area_of, sample, stacked
 
 
 def picture(artwork: Artwork, **options: object) -> Image.Image:
@@ -50,15 +50,15 @@ def test_it_is_to_the_pixel_what_cairosvg_makes_of_our_svg(artwork: Artwork, clo
     assert np.array_equal(np.asarray(ours), np.asarray(Image.open(io.BytesIO(data))))
 
 
-def test_a_cloth_in_pieces_is_shown_as_its_marks_lie() -> None:
-    sink = io.BytesIO()
-    png.write(InPieces(sample(), 3), sink, PngOptions(dpi=254))
-    image = Image.open(sink)
-    whole, pieces = (np.asarray(each.convert("RGB"), float) for each in (picture(sample(), dpi=254), image))
-    # Borders have fewer shades, and nothing else differs.
-    assert np.abs(whole - pieces).mean() < 1
-    assert (np.abs(whole - pieces).max(axis=2) > 40).mean() < 0.01
-    assert image.info["dpi"] == pytest.approx((254, 254), abs=0.02)
+def test_a_large_picture_has_fewer_shades_at_borders_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    fine = picture(sample(), dpi=254)
+    monkeypatch.setattr(png, "LARGE_PIXELS", 1)
+    large = picture(sample(), dpi=254)
+    whole, coarse = (np.asarray(each.convert("RGB"), float) for each in (fine, large))
+    assert 0 < np.abs(whole - coarse).mean() < 1
+    assert (np.abs(whole - coarse).max(axis=2) > 40).mean() < 0.01
+    assert large.info["dpi"] == pytest.approx((254, 254), abs=0.02)
+    assert picture(sample(), dpi=254, cloth=False).mode == "RGBA"
 
 
 def test_bleed_is_not_shown() -> None:

@@ -54,6 +54,11 @@ class Period(NamedTuple):
         """Width and height of the rectangle that holds every place once."""
         return np.diag(self.lattice)
 
+    @property
+    def operations(self) -> tuple[Affine, ...]:
+        """Those of its group, the identity first."""
+        return self.group.operations if self.group else (IDENTITY,)
+
     def owns(self, points: Array) -> NDArray[np.bool_]:
         """Return which points, shape (n, 2), lie in the window."""
         return np.asarray(((points >= ASIDE) & (points < self.window + ASIDE)).all(axis=1))
@@ -95,7 +100,7 @@ class Period(NamedTuple):
             return points, np.empty(0, np.intp)
         low, high = points.min(axis=0) - reach, points.max(axis=0) + reach
         found, owner = [points], [np.arange(len(points))]
-        for number, operation in enumerate(self.group.operations if self.group else (IDENTITY,)):
+        for number, operation in enumerate(self.operations):
             image = self.home(operation.at(points)) if number else points
             for i, j in AROUND:
                 if number or i or j:
@@ -119,21 +124,40 @@ class Period(NamedTuple):
         shares = np.rint(ways @ np.linalg.inv(self.lattice))
         return np.asarray(ways - shares @ self.lattice)
 
+    def images_of(self, marks: Geometries, reach: float) -> tuple[Geometries, Indices]:
+        """Return images of marks within ``reach`` of the box round them, themselves left out, and whose."""
+        box = shapely.total_bounds(marks)
+        low, high = box[:2] - reach, box[2:] + reach
+        centres = shapely.get_coordinates(shapely.centroid(marks)) if self.group else np.empty((0, 2))
+        found, owner = [marks[:0]], [np.empty(0, np.intp)]
+        for number, operation in enumerate(self.operations):
+            image = marks
+            if number:
+                places = operation.at(centres)
+                image = moved_each(operation.apply(marks), self.home(places) - places)
+            bounds = shapely.bounds(image)
+            for i, j in AROUND:
+                shift = i * self.lattice[0] + j * self.lattice[1]
+                meets = (bounds[:, :2] + shift <= high) & (bounds[:, 2:] + shift >= low)
+                near = np.flatnonzero(meets.all(axis=1))
+                if number or i or j:
+                    found.append(Affine.translation((float(shift[0]), float(shift[1]))).apply(image[near]))
+                    owner.append(near)
+        return np.concatenate(found), np.concatenate(owner)
+
     def clear(self, marks: Geometries, bare: float) -> NDArray[np.bool_]:
         """Return which marks stay so that none comes nearer to a translate of another than ``bare``."""
-        bounds = shapely.bounds(marks)
-        low, high = bounds[:, :2].min(axis=0) - bare, bounds[:, 2:].max(axis=0) + bare
-        moved, owner = [], []
-        for i, j in AROUND:
-            if i or j:
-                shift = i * self.lattice[0] + j * self.lattice[1]
-                near = ((bounds[:, :2] + shift <= high) & (bounds[:, 2:] + shift >= low)).all(axis=1)
-                moved.append(Affine.translation((float(shift[0]), float(shift[1]))).apply(marks[near]))
-                owner.append(np.flatnonzero(near))
-        there, of = np.concatenate(moved), np.concatenate(owner)
+        there, of = self.images_of(marks, bare)
         a, b = shapely.STRtree(marks).query(there, predicate="dwithin", distance=bare)
         a = of[a]
         return settled(np.arange(len(marks)), a[a != b], b[a != b])
+
+
+def moved_each(marks: Geometries, shifts: Array) -> Geometries:
+    """Return marks, each moved by its own shift, shape (n, 2)."""
+    points, of = shapely.get_coordinates(marks, return_index=True)
+    copies = np.array(marks, dtype=object)
+    return np.asarray(shapely.set_coordinates(copies, points + shifts[of]), dtype=object)
 
 
 def closing(basis: Array, lattice: Array) -> Array:

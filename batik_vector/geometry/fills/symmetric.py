@@ -13,7 +13,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from batik_vector.geometry.fills.periodic import AROUND, Period
+from batik_vector.geometry.fills.periodic import Period, moved_each
 from batik_vector.geometry.fills.thinning import near_pairs, settled
 from batik_vector.geometry.sampling import Array, Geometries, Indices
 
@@ -106,8 +106,7 @@ def settled_marks(marks: Geometries, bare: float, period: Period) -> Mask:
 
     The earlier has its way; what comes too near to its own image goes.
     """
-    box = shapely.total_bounds(marks)
-    there, of = _images(marks, period, box[:2] - bare, box[2:] + bare)
+    there, of = period.images_of(marks, bare)
     near, a = shapely.STRtree(marks).query(there, predicate="dwithin", distance=bare)
     b = of[near]
     alone = np.ones(len(marks), bool)
@@ -131,38 +130,10 @@ def spread(marks: Geometries, period: Period) -> tuple[Geometries, Indices]:
         for earlier in places:
             fresh &= np.hypot(*period.apart_modulo(home - earlier).T) > TOUCH_MM
         which = np.flatnonzero(fresh)
-        found.append(_moved(operation.apply(marks[which]), (home - image)[which]))
+        found.append(moved_each(operation.apply(marks[which]), (home - image)[which]))
         owner.append(which)
         places.append(home)
     return np.concatenate(found), np.concatenate(owner)
-
-
-def _images(marks: Geometries, period: Period, low: Array, high: Array) -> tuple[Geometries, Indices]:
-    """Return images of marks that meet a box, themselves left out, and whose they are."""
-    assert period.group is not None
-    found, owner = [marks[:0]], [np.empty(0, np.intp)]
-    centres = shapely.get_coordinates(shapely.centroid(marks))
-    for number, operation in enumerate(period.group.operations):
-        image = operation.at(centres)
-        home = period.home(image) - image if number else np.zeros_like(centres)
-        moved = _moved(operation.apply(marks), home)
-        bounds = shapely.bounds(moved)
-        for i, j in AROUND:
-            shift = i * period.lattice[0] + j * period.lattice[1]
-            meets = (bounds[:, :2] + shift <= high) & (bounds[:, 2:] + shift >= low)
-            near = np.flatnonzero(meets.all(axis=1))
-            if (number or i or j) and len(near):
-                found.append(_moved(moved[near], np.broadcast_to(shift, (len(near), 2))))
-                owner.append(near)
-    return np.concatenate(found), np.concatenate(owner)
-
-
-def _moved(marks: Geometries, shifts: Array) -> Geometries:
-    """Return marks, each moved by its own shift, shape (n, 2)."""
-    points, of = shapely.get_coordinates(marks, return_index=True)
-    return np.asarray(
-        shapely.set_coordinates(np.array(marks, dtype=object), points + shifts[of]), dtype=object
-    )
 
 
 def _own_images(points: Array, least: float, period: Period) -> tuple[Indices, Array]:

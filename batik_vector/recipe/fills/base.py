@@ -54,6 +54,8 @@ class Fill:
     """Marks in a square of the spacing, about."""
     whole: ClassVar[bool] = True
     """Whether a mark that something above would cut is left out instead."""
+    isotropic: ClassVar[bool] = False
+    """Whether a mark looks alike whichever way it is turned, and can lie on any mirror."""
     may_be_none: ClassVar[bool] = False
     """Whether an element in which nothing has room is left plain, and no fault."""
 

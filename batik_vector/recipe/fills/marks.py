@@ -35,6 +35,7 @@ class Cecek(Angled):
     """Dots (*cecek*)."""
 
     kind = "cecek"
+    isotropic = True
     marks_each = 1.16
 
     width: Annotated[Annotated[Length, Between(0.01, 100)], Useful(0.5, 1.2), Says("breadth of a dot")] = 0.8
@@ -116,7 +117,7 @@ class Herangan(Fill):
 
         length = self.spacing - 0.8 * self.width
         within = inset(room.parts, self.margin + length / 2)
-        places, part = scattered(within, self.spacing, room.seed, room.period, onto_axes=False)
+        places, part = scattered(within, self.spacing, room.seed, room.period, self.isotropic)
         shape = fragment(length, self.width, room.tolerance)
         return stamped(shape, places, turns(len(places), room.seed)), within.region[part]
 
@@ -153,16 +154,14 @@ def _places(fill: Cecek | CacahGori, follow: Rows, room: Room, reach: float, row
     from batik_vector.geometry.fills.rows import circles, hexagonal
     from batik_vector.geometry.fills.scatter import scattered
 
-    # A dot can lie on a mirror, whichever way that runs.
-    round_ = fill.kind == Cecek.kind
     if follow == Rows.CONTOUR:
         told = fill.margin + reach, fill.spacing, rows
-        return along(room.parts, room.centres, room.turns, *told, room.period, round_)
+        return along(room.parts, room.centres, room.turns, *told, room.period, fill.isotropic)
     within = inset(room.parts, fill.margin + reach)
     if follow == Rows.CENTRE:
         places, part = circles(within, room.centres, fill.spacing, room.turns)
     elif follow == Rows.SCATTER:
-        places, part = scattered(within, fill.spacing, room.seed, room.period, round_)
+        places, part = scattered(within, fill.spacing, room.seed, room.period, fill.isotropic)
     elif follow == Rows.AXIS:
         return _along_midribs(fill, room, within)
     else:
