@@ -16,8 +16,10 @@ from batik_vector.export.palette import xml_label
 from batik_vector.geometry.outlines import to_polygons, to_polylines, together
 from batik_vector.importing.svg import Reading
 from batik_vector.machines import Machine
+from batik_vector.making.pages import Latest, finished
 from batik_vector.processes.spec import ProcessSpec
 from batik_vector.recipe.model import Recipe
+from batik_vector.recipe.outputs import SvgOutput
 from batik_vector.tiling.cloth.field import repeated, with_bleed
 from batik_vector.units import STEPS_PER_MM, format_mm
 from batik_vector.values import frozen
@@ -64,8 +66,8 @@ class Promise:
         )
 
 
-def promised(recipe: Recipe, tile: Artwork, reading: Reading) -> Promise:
-    """Return what a recipe promises of a page that was read.
+def promised(recipe: Recipe, tile: Artwork, reading: Reading) -> tuple[Promise, bool]:
+    """Return what a recipe promises of a page that was read, and whether that is a tile.
 
     Args:
         recipe: in the file.
@@ -76,8 +78,8 @@ def promised(recipe: Recipe, tile: Artwork, reading: Reading) -> Promise:
         page = (tile.cell.width * across, tile.cell.height * up)
         if np.allclose(page, reading.page, rtol=0, atol=SIZE_MM):
             field = _field(tile, across, up)
-            return Promise(recipe, field, _repeat(field.cell))
-    return _broken(recipe, tile, reading)
+            return Promise(recipe, field, _repeat(field.cell)), True
+    return _marked(recipe, tile, reading) or _broken(recipe, tile, reading), False
 
 
 def promised_prepared(
@@ -92,7 +94,7 @@ def promised_prepared(
     Raises:
         GeometryError: where a process cannot be done.
     """
-    rest = list(processes)
+    rest, whole = list(processes), tile
     while rest and rest[0].of_tile:
         done = rest.pop(0).apply(tile, Machine())
         assert isinstance(done, Artwork)
@@ -108,7 +110,20 @@ def promised_prepared(
             if kept and rest:
                 shown = replace(shown, cell=page.cell, borders=getattr(page, "borders", field.borders))
             return Promise(recipe, shown, _repeat(shown.cell)), kept
-    return _broken(recipe, tile, reading), False
+    return _marked(recipe, whole, reading, processes) or _broken(recipe, tile, reading), False
+
+
+def _marked(
+    recipe: Recipe, tile: Artwork, reading: Reading, processes: Sequence[ProcessSpec] = ()
+) -> Promise | None:
+    """Return what a recipe promises of a page with marks for the printer round it, if it has one so large."""
+    for output in recipe.output:
+        if isinstance(output, SvgOutput) and output.marks:
+            asked = replace(output, process=tuple(processes))
+            shown = _strokes(finished(tile, asked, Latest())[0])
+            if np.allclose((shown.cell.width, shown.cell.height), reading.page, rtol=0, atol=SIZE_MM):
+                return Promise(recipe, shown)
+    return None
 
 
 def _strokes(page: Page) -> Artwork:

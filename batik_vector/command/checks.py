@@ -172,7 +172,8 @@ def _check_drawing(source: str, wishes: Wishes, tell: Tell) -> Found:
     if processes:
         return _check_prepared(source, reading, recipe, processes, wishes, tell)
     try:
-        promise = promised(recipe, compile_recipe(recipe, progress=tell), reading)
+        tile = compile_recipe(recipe, progress=tell)
+        promise, kept = promised(recipe, tile, reading)
     except BatikError as error:
         notes.append(f"its recipe does not compile, and was left aside: {error}")
         return _drawing_found(source, reading, _foreign(source, reading, wishes), notes=notes)
@@ -180,8 +181,11 @@ def _check_drawing(source: str, wishes: Wishes, tell: Tell) -> Found:
     reading, promise = _as_promised(source, reading, promise)
     if promise.broken and recipe.yardage is not None:
         raise _fault(source, "shows the cloth, and not the tile that fills it: check its recipe instead")
-    certificate = _certified(source, reading.artwork, wishes, asked_group(recipe))
-    return _drawing_found(source, reading, certificate, promise, notes)
+    kept = kept or bool(promise.broken) or bool(promise.artwork.bleed)
+    if not kept:
+        notes.append("shows the tile within a printer's marks: the tile that it was made of was measured")
+    certificate = _certified(source, reading.artwork if kept else tile, wishes, asked_group(recipe))
+    return _drawing_found(source, reading, certificate, promise, notes, itself=kept)
 
 
 def _check_prepared(
@@ -201,7 +205,7 @@ def _check_prepared(
         notes.append(f"{asked.name} is not kept by {' and '.join(free)}, and is not asked of it any more")
         asked = None
     certificate = _certified(source, reading.artwork if kept else tile, wishes, asked)
-    found = _drawing_found(source, reading, certificate, promise, notes)
+    found = _drawing_found(source, reading, certificate, promise, notes, itself=kept)
     # Overcuts, pre-cuts and tabs are open and drawn again on purpose: a machine is asked of the pattern.
     return found if kept else replace(found, pattern=tile)
 
@@ -269,10 +273,14 @@ def _drawing_found(
     certificate: Certificate,
     promise: Promise | None = None,
     notes: Sequence[str] = (),
+    itself: bool = True,
 ) -> Found:
+    """Return what was found of a drawing; ``itself`` is whether it was measured, and not the tile behind it."""
     artwork = reading.artwork
     broken = list(promise.broken) if promise else []
     apart = differences(artwork, promise.artwork) if promise and not broken else []
+    if apart and not itself:
+        broken.append("what it draws is not what its recipe makes, and only that could be measured")
     # The normal form and equal bits on the seam are for what this program compiles.
     facts = {**described(artwork), "violations": [], "seam": []}
     for told, layer in zip(facts["layers"], artwork.layers, strict=True):

@@ -34,6 +34,7 @@ MAX_INKS = 300
 PAGE_SLACK_MM = 1e-3
 """How far a ground may fall short of its page and still be the cloth."""
 _PEN = re.compile(r"^\d+ +(?=\S)")
+_GUIDE = re.compile(r"%\d+ +(?=\S)")
 _CLOTH = re.compile(r"(?:%(?:\d+ +)?)?cloth", re.IGNORECASE)
 """The cloth's layer: ours is ``%99 cloth``, and was ``%cloth``."""
 
@@ -120,6 +121,8 @@ def layers_of(
     """
     marks, cloth = on_cloth(document, marks, cell, bleed)
     cloth = cloth or WHITE
+    if ours:
+        marks = _without_guides(marks)
     keys = _keys(marks, ours)
     inks = len({*keys[0], *keys[1]})
     if inks > MAX_INKS:
@@ -146,6 +149,12 @@ def on_cloth(document: Document, marks: Marks, cell: Cell, bleed: float) -> tupl
     if not len(marks):
         raise document.fault("is no tile: all that it draws lies outside its page", document.root)
     return marks, cloth
+
+
+def _without_guides(marks: Marks) -> Marks:
+    """Leave out what a file of ours draws beside the pattern: a printer's marks, a tool's ways."""
+    label = np.array([bool(_GUIDE.match(shape.label)) for shape in marks.shapes], bool)
+    return marks.only(~label[marks.area_shape], ~label[marks.line_shape]) if label.any() else marks
 
 
 def _stroke_notes(document: Document, inks: Sequence[str]) -> None:

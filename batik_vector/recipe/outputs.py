@@ -107,6 +107,7 @@ class SvgOutput(OutputSpec, SvgOptions):
     writer = SvgOptions
     travel: Ways = False
     repeat: Annotated[tuple[Count, Count], Says("how many tiles across and up")] = (1, 1)
+    marks: Marks = False
 
 
 @frozen(kw_only=True)

@@ -175,6 +175,24 @@ def test_plates_of_a_tile_have_marks_and_the_name_of_their_ink(recipe: Path) -> 
     assert (out / "p-indigo.pdf").exists()
 
 
+def test_marked_plates_as_drawings_are_checked_within_their_marks(recipe: Path) -> None:
+    tables = "[[output]]\nformat = \"svg\"\nmarks = true\n"
+    plates = tables + 'name = "plate"\nprocess = { kind = "separate" }\n'
+    recipe.write_text(RECIPE + tables + plates)
+    code, report, _ = call(recipe)
+    assert code == 0
+    assert {tuple(each["size_mm"]) for each in report["recipes"][0]["files"]} == {(120, 84.5)}
+    drawings = sorted((recipe.parent / "out").glob("*.svg"))
+    assert len(drawings) == 1 + len(ENDS)
+    assert runner().invoke(cli, ["check", *map(str, drawings)]).exit_code == 0
+    # A mark that the recipe does not make is told, for all that the printer's marks stand round it.
+    text = drawings[0].read_text(encoding="utf-8")
+    drawings[0].write_text(text.replace('<path d="M', '<path d="M55 55h2v2h-2zM', 1), encoding="utf-8")
+    told = runner().invoke(cli, ["check", str(drawings[0])])
+    assert told.exit_code == 1
+    assert "the file and the recipe differ in 4 mm²" in told.output
+
+
 def test_lines_on_a_plate_of_a_cloth_are_areas(recipe: Path) -> None:
     recipe.write_text(RECIPE + '\n[yardage]\nwidth = "40 mm"\nlength = "40 mm"\nmarks = true\n')
     code, _, _ = call(recipe, "-f", "svg", "--process", "separate ink=lines")
