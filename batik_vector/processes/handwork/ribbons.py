@@ -43,7 +43,7 @@ def ribbons(points: Steps, offsets: Offsets, radius: Array, *, round_ends: bool)
     far = radius / np.maximum(half, SHARP)
     normal = np.stack([-mean[:, 1], mean[:, 0]], axis=1) * far[:, None]
     made = _outlines(points.astype(float), offsets, normal)
-    sound = np.asarray(shapely.is_valid(made), bool)
+    sound = np.asarray(shapely.is_valid(made), bool) & ~_turned_back(points, offsets, normal)
     # A line that turns more tightly than it is broad, or comes back to itself, is put together of pieces.
     pieces = ~sound[line]
     ends = (first | last) & ~pieces & (round_ends | joints)
@@ -102,6 +102,20 @@ def _outlines(points: Array, offsets: Offsets, normal: Array) -> Geometries:
     ring = np.repeat(np.arange(len(sizes)), 2 * sizes)
     shells = shapely.linearrings(np.floor(rings + 0.5), indices=ring)
     return np.asarray(shapely.polygons(shells), dtype=object)
+
+
+def _turned_back(points: Steps, offsets: Offsets, normal: Array) -> NDArray[np.bool_]:
+    """Return which lines have a side that runs against them somewhere: it cuts off what lies within a bend.
+
+    Near an end it may do so without crossing the outline.
+    """
+    along = (points[1:] - points[:-1]).astype(float)
+    turn = normal[1:] - normal[:-1]
+    least = (along * along).sum(axis=1) - np.abs((along * turn).sum(axis=1))
+    back = least < 0
+    back[offsets[1:-1] - 1] = False
+    found = np.concatenate([[0], np.cumsum(back)])
+    return np.asarray(found[offsets[1:] - 1] > found[offsets[:-1]], bool)
 
 
 def _discs(points: Steps, radius: Array) -> Geometries:
