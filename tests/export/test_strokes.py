@@ -53,7 +53,7 @@ def turns(artwork: Artwork, downwards: bool = False) -> list[float]:
     return found
 
 
-@pytest.fixture(scope="module", params=["mega-mendung", "group-p4", "lotus-pond"])
+@pytest.fixture(scope="module", params=["mega-mendung", "group-p4", "cockscomb"])
 def tile(request: pytest.FixtureRequest) -> Artwork:
     return compile_recipe(load_recipe(SAMPLES / f"{request.param}.toml"))
 

@@ -337,7 +337,7 @@ def test_the_answer_does_not_depend_on_where_the_tile_was_cut() -> None:
     assert {each.copies for each in found} == {4}
 
 
-@pytest.mark.parametrize("ratio", [20, 50, 300, 1000])
+@pytest.mark.parametrize("ratio", [20, 50, 1000])
 @pytest.mark.parametrize("group", ["p1", "pm", "pmm", "cmm"])
 def test_a_long_tile_is_answered_and_has_its_group(ratio: int, group: str) -> None:
     # A shear by one short side all but keeps a long lattice; with a mirror it makes operations without end.
