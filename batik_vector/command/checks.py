@@ -275,7 +275,7 @@ def _drawing_found(
     notes: Sequence[str] = (),
     itself: bool = True,
 ) -> Found:
-    """Return what was found of a drawing; ``itself`` is whether it was measured, and not the tile behind it."""
+    """Return what was found of a drawing; ``itself``: it was measured, and not the tile behind it."""
     artwork = reading.artwork
     broken = list(promise.broken) if promise else []
     apart = differences(artwork, promise.artwork) if promise and not broken else []
