@@ -36,8 +36,8 @@ STRAIN = 0.7
 FINE = 0.25
 """How far the chords of a bent edge may stand off, over the artwork's tolerance."""
 PER_BUMP = 4
-"""Chords between two of the narrowest bumps at least. Of 270 tiles that random recipes and seeds made three had
-a sudden turn on the seam at 3, two at 2, none at 4."""
+"""Chords between two of the narrowest bumps at least. Of 270 tiles of random recipes and seeds three had a sudden
+turn on the seam at 3, two at 2, none at 4."""
 MOST = 1_500_000
 """Corners past which a tile is not drawn by hand."""
 SPARE = 2.0
