@@ -197,6 +197,16 @@ def test_a_repeat_or_a_page_that_would_fit_is_proposed() -> None:
     assert "wide" in hint
 
 
+def test_the_straight_repeat_is_proposed_before_a_drop_of_a_weave() -> None:
+    # A weave of five alike courses repeats straight, and by drops of 1/5 to 4/5; by a half it does not.
+    weave = "".join(f'<path d="M-5 {12 * k + 3}h20v6h-20zM55 {12 * k + 3}h20v6h-20z"/>' for k in range(5))
+    assert found(weave, "drop 3/5").faults == ()
+    certificate = found(weave, "half-drop")
+    assert certificate.faults
+    (hint,) = certificate.hints
+    assert '--repeat "grid"' in hint
+
+
 def test_blended_colours_are_not_measured() -> None:
     marks = '<circle style="mix-blend-mode:multiply" cx="30" cy="30" r="9"/>'
     certificate = found(marks)

@@ -176,7 +176,7 @@ def test_plates_of_a_tile_have_marks_and_the_name_of_their_ink(recipe: Path) -> 
 
 
 def test_marked_plates_as_drawings_are_checked_within_their_marks(recipe: Path) -> None:
-    tables = "[[output]]\nformat = \"svg\"\nmarks = true\n"
+    tables = '[[output]]\nformat = "svg"\nmarks = true\n'
     plates = tables + 'name = "plate"\nprocess = { kind = "separate" }\n'
     recipe.write_text(RECIPE + tables + plates)
     code, report, _ = call(recipe)
