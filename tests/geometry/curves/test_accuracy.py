@@ -121,7 +121,7 @@ def scale_of(points: np.ndarray) -> float:
 def farthest(points: np.ndarray, line: np.ndarray) -> float:
     """How far points stand from a polyline at most."""
     chords = shapely.linestrings(np.stack([line[:-1], line[1:]], axis=1))
-    _, away = shapely.STRtree(chords).query_nearest(
+    _, away = shapely.STRtree(np.asarray(chords)).query_nearest(
         shapely.points(points), all_matches=False, return_distance=True
     )
     return float(away.max())
