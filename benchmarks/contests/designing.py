@@ -74,10 +74,14 @@ def sweep(plan: Plan) -> list[Contest]:
         Entrant(way, says, own("sweeps", way, count, "{folder}"), rounds=1 if way == "loop" else None)
         for way, says in ways.items()
     ]
-    vsketch = Entrant(
-        "vsketch", "vsketch, its curves alone", peer("vsketch_sweep", count, "{folder}"), rounds=1
-    )
-    return [Contest("sweep", (*mine, vsketch), min(plan.rounds, 3))]
+    peers = [
+        Entrant(name, says, peer(script, count, "{folder}"), rounds=1)
+        for name, says, script in (
+            ("vsketch", "vsketch, its curves alone", "vsketch_sweep"),
+            ("same", "vsketch with shapely, the same tiles", "vsketch_whole"),
+        )
+    ]
+    return [Contest("sweep", (*mine, *peers), min(plan.rounds, 3))]
 
 
 def grown(plan: Plan) -> list[Contest]:

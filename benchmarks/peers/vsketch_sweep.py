@@ -2,7 +2,8 @@
 
 python -m benchmarks.peers.vsketch_sweep COUNT FOLDER
 
-What vsketch has no words for is left out: nothing is cut, united, gapped or filled; only curves are drawn.
+What vsketch has no words for is left out: nothing is cut, united, gapped or filled; only curves are drawn. In
+``vsketch_whole`` shapely does that.
 That costs it what our finished outlines would: nearly all of its time goes into its document and its file.
 """
 
