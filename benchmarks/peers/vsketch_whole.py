@@ -1,11 +1,11 @@
-"""vsketch with shapely: the same tiles of the four-square flower as the sweep makes, each with another pistil.
+"""vsketch with shapely: the tiles of the four-square flower that the sweep makes, each with another pistil.
 
 python -m benchmarks.peers.vsketch_whole COUNT FOLDER     save so many sketches
 python -m benchmarks.peers.vsketch_whole areas            the area (mm²) of each ink of one
 
-What vsketch has no words for shapely does, as a script would let it: the curves of an element are united at once,
-what lies on top is cut out of what lies beneath with its gap, lines become areas, and what crosses the tile's edge
-comes in on the other side. Inks are layers. Points are as many as our tiles have, about.
+What vsketch has no words for shapely does, as a script would let it: the curves of an element are united at
+once, what lies on top is cut out of what lies beneath with its gap, lines become areas, and what crosses the
+tile's edge comes in on the other side. Inks are layers. Points are as many as our tiles have, about.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ import numpy as np
 import shapely
 import vsketch
 from numpy.typing import NDArray
+from shapely import affinity
 
 SIDE, SCALE, LINE = 320.0, 60.0, 1.4
 PISTIL = 0.8
@@ -41,15 +42,16 @@ def leaf(a: float, b: float, length: float, width: float) -> Points:
 def petal(n: int, length: float) -> Points:
     """Return one petal of a rose."""
     t = np.linspace(-np.pi / 2 / n, np.pi / 2 / n, 48)
-    return length * np.cos(n * t)[:, None] * np.column_stack([np.cos(t), np.sin(t)])
+    return np.asarray(length * np.cos(n * t)[:, None] * np.column_stack([np.cos(t), np.sin(t)]))
 
 
 def star(length: float) -> shapely.Geometry:
     """Return all that lies within a hypocycloid of 16 cusps, every fifth joined."""
     q, t = 16 / 5, 2 * np.pi * np.linspace(0, 5, 640, endpoint=False)
     x, y = (q - 1) * np.cos(t) + np.cos((q - 1) * t), (q - 1) * np.sin(t) - np.sin((q - 1) * t)
-    lines = shapely.linestrings(length / q * SCALE * np.column_stack([np.append(x, x[0]), np.append(y, y[0])]))
-    faces = shapely.get_parts(shapely.polygonize([shapely.node(lines)]))
+    ring = length / q * SCALE * np.column_stack([x, y])
+    crossed = shapely.node(shapely.LineString(np.append(ring, ring[:1], axis=0)))
+    faces = shapely.get_parts(shapely.polygonize([crossed]))
     return shapely.union_all([shapely.Polygon(each.exterior) for each in faces])
 
 
@@ -78,8 +80,8 @@ def placed(shape: shapely.Geometry, places: Sequence[tuple[float, float]]) -> sh
     for x, y in places:
         for across in (-SIDE, 0, SIDE):
             for up in (-SIDE, 0, SIDE):
-                there = shapely.transform(shape, lambda xy, by=(x + across, y + up): xy + by)
-                if there.intersects(TILE):
+                there = affinity.translate(shape, x + across, y + up)
+                if shapely.intersects(there, TILE):
                     moved.append(there)
     return shapely.intersection(shapely.union_all(moved), TILE)
 
@@ -148,6 +150,6 @@ def main(count: int, folder: Path) -> None:
 
 if __name__ == "__main__":
     if sys.argv[1] == "areas":
-        print(json.dumps({ink: round(area.area, 1) for ink, area in tile(PISTIL).items()}))
+        print(json.dumps({ink: round(shapely.area(area), 1) for ink, area in tile(PISTIL).items()}))
     else:
         main(int(sys.argv[1]), Path(sys.argv[2]) / "vsketch-whole")
