@@ -44,8 +44,11 @@ def write_whole(path: str | os.PathLike[str], data: Content) -> None:
     write_all_whole([(path, data)])
 
 
-def write_all_whole(files: Iterable[tuple[str | os.PathLike[str], Content]]) -> None:
+def write_all_whole(files: Iterable[tuple[str | os.PathLike[str], Content]], *, forced: bool = True) -> None:
     """Write several files, or leave what was there in place of each.
+
+    Without ``forced`` they are not forced to the disk before they take their places: no end of the process
+    costs more for that, but a failing system may leave them empty. That is for what is looked through anyway.
 
     Whatever one that writes its own content raises leaves everything as it was, and goes on to the caller.
 
@@ -56,7 +59,7 @@ def write_all_whole(files: Iterable[tuple[str | os.PathLike[str], Content]]) -> 
     places = {os.path.realpath(path) for path, _ in work}
     if len(places) < len(work):
         raise ExportError("two outputs would have the same path")
-    batch = _Batch()
+    batch = _Batch(forced)
     _at_work.append(batch)
     try:
         for path, data in work:
@@ -109,7 +112,8 @@ class _Batch:
     An interrupt may come between any two steps, so every name is entered before the thing exists.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, forced: bool) -> None:
+        self._forced = forced
         self._temps: dict[Path, Path] = {}
         self._handles: dict[Path, int] = {}
         self._backups: dict[Path, Path] = {}
@@ -129,7 +133,8 @@ class _Batch:
                     data(sink)
             if mode is not None:
                 os.chmod(handle if CHMOD_TAKES_HANDLES else temp, mode)
-            os.fsync(handle)
+            if self._forced:
+                os.fsync(handle)
             if nameless is not None:
                 self._handles[path] = handle
         finally:

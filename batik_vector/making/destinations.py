@@ -19,13 +19,16 @@ IN_MEMORY = 32 << 20
 """Bytes of a file that are kept in memory until it is whole."""
 
 
-def into_folders(files: Files) -> None:
-    """Write all files or none; folders made for them go again where nothing comes of it."""
+def into_folders(files: Files, *, forced: bool = True) -> None:
+    """Write all files or none; folders made for them go again where nothing comes of it.
+
+    ``forced`` is as for :func:`~batik_vector.export.write_all_whole`.
+    """
     fresh: list[Path] = []
     for path, _ in files:
         fresh += make_folder(path.parent)
     try:
-        write_all_whole(files)
+        write_all_whole(files, forced=forced)
     except BaseException:
         for folder in fresh:
             with contextlib.suppress(OSError):

@@ -14,6 +14,7 @@ import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -24,7 +25,7 @@ from batik_vector.compiling.compiler import compile_recipe
 from batik_vector.errors import BatikError, Fault, RecipeError, shortened
 from batik_vector.export.files import write_all_whole
 from batik_vector.fields import installed
-from batik_vector.making.destinations import check_folder, make_folder
+from batik_vector.making.destinations import check_folder, into_folders, make_folder
 from batik_vector.making.jobs import Job, planned, run
 from batik_vector.making.manifest import Made, Manifest, digest_of, picture_in
 from batik_vector.making.pages import drawings_of
@@ -73,7 +74,8 @@ class Making:
 
         with _varied(variant.changes):
             job = self._job(variant)
-            report = run(job, lambda stage: None, look)
+            # Going on with a sweep compares files with digests: what a failing system took is made again.
+            report = run(job, lambda stage: None, look, partial(into_folders, forced=False))
         files = tuple((path.name, digest_of(path)) for path, _ in job.files)
         return Made(variant, files, report, pictures[0] if pictures else None)
 
