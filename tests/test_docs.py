@@ -11,7 +11,8 @@ import pytest
 
 from batik_vector import InkSpec, Placement, Recipe, TileSpec, compile_recipe
 from batik_vector.geometry.curves import trace
-from batik_vector.making.jobs import planned, read_jobs, run_quietly
+from batik_vector.making.jobs import planned, read_jobs
+from batik_vector.making.running import run_quietly
 from batik_vector.recipe.loading import read_recipe
 from batik_vector.recipe.motif import Element, Rosette
 from tools import house, reference

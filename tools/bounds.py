@@ -148,7 +148,8 @@ def _compile(each: Try, pipe: int, seconds: float, gigabytes: float) -> None:
 
 
 def _run(path: Path, folder: Path) -> str:
-    from batik_vector.making.jobs import planned, read_jobs, run
+    from batik_vector.making.jobs import planned, read_jobs
+    from batik_vector.making.running import run
 
     for job in planned(read_jobs([str(path)]), folder):
         report = run(job, lambda stage: None)
@@ -227,7 +228,7 @@ def _warm() -> None:
     import batik_vector.compiling.borders
     import batik_vector.export.dxf
     import batik_vector.export.pdf
-    import batik_vector.making.jobs
+    import batik_vector.making.running
     import batik_vector.recipe.reading.validator
     import batik_vector.tiling.cloth.field
     import batik_vector.tiling.cloth.yardage

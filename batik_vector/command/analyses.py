@@ -29,7 +29,8 @@ def analyse_source(source: str, overrides: Sequence[str], tell: Callable[[str], 
         tell(f"reading {Path(source).name}")
         return _facts(source, "geometry", analyse(source))
     # What compiles recipes is imported for them alone: a drawing is measured in half a second.
-    from batik_vector.making.jobs import made, read_jobs
+    from batik_vector.making.jobs import read_jobs
+    from batik_vector.making.running import made
 
     (job,) = read_jobs([source], overrides)
     artwork = made(job, tell)

@@ -29,8 +29,9 @@ from batik_vector.importing.overlay import laid_over
 from batik_vector.importing.svg import Reading, read_svg
 from batik_vector.machines import Machine
 from batik_vector.making.facts import warnings
-from batik_vector.making.jobs import Job, made, read_jobs
+from batik_vector.making.jobs import Job, read_jobs
 from batik_vector.making.promised import asked_group
+from batik_vector.making.running import made
 from batik_vector.recipe.loading import read_recipe
 from batik_vector.recipe.model import Recipe
 from batik_vector.recipe.reading.called_processes import read_processes

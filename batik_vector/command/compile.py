@@ -93,7 +93,7 @@ def _made(
     work: Sequence[Job], workers: int, quiet: bool, report: dict[str, Any], place: Destination
 ) -> Iterator[dict[str, Any]]:
     """Make the files of all jobs, in their order or on several cores; yield reports as they are done."""
-    from batik_vector.making.jobs import run, run_quietly
+    from batik_vector.making.running import run, run_quietly
 
     if min(workers, len(work)) <= 1:
         for job, tell in _progress(work, quiet):

@@ -91,7 +91,8 @@ def _compiled(
     from pathlib import Path
 
     from batik_vector._version import __version__
-    from batik_vector.making.jobs import planned, read_jobs, ready, run_quietly
+    from batik_vector.making.jobs import planned, read_jobs, ready
+    from batik_vector.making.running import run_quietly
 
     report: dict[str, Any] = {"version": __version__, "exit": 0, "recipes": [], "faults": []}
     with faults_told(report):

@@ -57,7 +57,8 @@ def _made(
 
     from batik_vector.errors import Fault, GeometryError, RecipeError
     from batik_vector.making.destinations import check_folder, make_folder
-    from batik_vector.making.jobs import made, read_jobs
+    from batik_vector.making.jobs import read_jobs
+    from batik_vector.making.running import made
     from batik_vector.making.sheets import write_sheet
     from batik_vector.making.worksheets import worksheet
     from batik_vector.processes.options import WaxProcess

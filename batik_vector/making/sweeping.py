@@ -26,10 +26,11 @@ from batik_vector.errors import BatikError, Fault, RecipeError, shortened
 from batik_vector.export.files import write_all_whole
 from batik_vector.fields import installed
 from batik_vector.making.destinations import check_folder, into_folders, make_folder
-from batik_vector.making.jobs import Job, planned, run
+from batik_vector.making.jobs import Job, planned
 from batik_vector.making.manifest import Made, Manifest, digest_of, picture_in
 from batik_vector.making.pages import drawings_of
 from batik_vector.making.pool import Outcome, outcomes
+from batik_vector.making.running import run
 from batik_vector.making.thumbnails import Thumbnail, thumbnail
 from batik_vector.making.variants import Variant, parse_axis, variants
 from batik_vector.recipe.loading import read_recipe

@@ -18,7 +18,8 @@ from typing import Any
 
 from batik_vector.errors import BatikError, ExportError, Fault, RecipeError
 from batik_vector.export import FORMATS
-from batik_vector.making.jobs import Job, planned, run
+from batik_vector.making.jobs import Job, planned
+from batik_vector.making.running import run
 from batik_vector.recipe.loading import read_recipe
 from batik_vector.studio.asking import Wishes
 from batik_vector.studio.drafts import Draft

@@ -292,9 +292,9 @@ def test_the_command_asks_for_one_thread_of_linear_algebra_unless_told_otherwise
 
 def test_garbage_is_collected_while_the_command_works_and_after_it() -> None:
     code = (
-        "import gc, sys, batik_vector.making.jobs as jobs\n"
-        "work, seen = jobs.run, []\n"
-        "jobs.run = lambda *args, **keys: (seen.append(gc.isenabled()), work(*args, **keys))[1]\n"
+        "import gc, sys, batik_vector.making.running as running\n"
+        "work, seen = running.run, []\n"
+        "running.run = lambda *args, **keys: (seen.append(gc.isenabled()), work(*args, **keys))[1]\n"
         "sys.argv[1:] = ['compile', 'k.toml']\n"
         "try: import batik_vector.__main__\n"
         "except SystemExit: print(seen, gc.isenabled())"

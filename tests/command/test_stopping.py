@@ -15,7 +15,7 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of POSI
 WORK = """
 import sys
 import numpy as np, shapely
-import batik_vector.making.jobs as jobs
+import batik_vector.making.running as running
 from batik_vector.export import files
 
 files.CAN_BE_NAMELESS = False
@@ -33,8 +33,8 @@ def writing(page, output, sink, *_):
     sink.write(b"x" * (files.BUFFER + 1))
     in_geos()
 
-if {where!r} == "writing": jobs.render_output = writing
-else: jobs.compile_recipe = {where}
+if {where!r} == "writing": running.render_output = writing
+else: running.compile_recipe = {where}
 sys.argv[1:] = ["compile", "k.toml", "-o", "out"]
 import batik_vector.__main__
 """

@@ -19,7 +19,8 @@ from PIL.GimpPaletteFile import GimpPaletteFile
 from batik_vector.artwork import Artwork, Cell, Ink, Layer
 from batik_vector.export import PaletteOptions, SwatchOptions, render
 from batik_vector.export.swatch import SHOWN
-from batik_vector.making.jobs import planned, read_jobs, run_quietly
+from batik_vector.making.jobs import planned, read_jobs
+from batik_vector.making.running import run_quietly
 from tests.export.readers import SVG
 
 SAMPLES = Path(__file__).resolve().parents[2] / "samples"

@@ -10,8 +10,9 @@ import pikepdf
 import pytest
 
 from batik_vector.errors import RecipeError, TooLargeError
-from batik_vector.making.jobs import Job, planned, read_jobs, run
+from batik_vector.making.jobs import Job, planned, read_jobs
 from batik_vector.making.pages import piece_of
+from batik_vector.making.running import run
 from batik_vector.processes.spec import ProcessSpec
 from batik_vector.recipe.outputs import Piece
 from tests.export.readers import svg_layers

@@ -18,7 +18,8 @@ from batik_vector.errors import GeometryError
 from batik_vector.export import render
 from batik_vector.export.provenance import read_provenance
 from batik_vector.machines import Machine
-from batik_vector.making.jobs import planned, read_jobs, run
+from batik_vector.making.jobs import planned, read_jobs
+from batik_vector.making.running import run
 from batik_vector.processes.options import PROCESSES, PlotProcess
 from batik_vector.processes.order import travel
 from batik_vector.processes.prepared import Prepared, Tool

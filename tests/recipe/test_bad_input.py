@@ -234,7 +234,7 @@ def test_a_seam_that_does_not_hold_is_a_fault_of_the_work(
         raise SeamError("opposite edges disagree")
 
     (desk / "k.toml").write_text(BASE)
-    monkeypatch.setattr("batik_vector.making.jobs.compile_recipe", gape)
+    monkeypatch.setattr("batik_vector.making.running.compile_recipe", gape)
     assert complaints(call("k.toml"), 1) == ["k.toml: opposite edges disagree"]
 
 
@@ -308,13 +308,13 @@ def test_a_run_that_stops_halfway_leaves_the_old_files(
             raise error
         return b"new"
 
-    monkeypatch.setattr("batik_vector.making.jobs.render_output", stop)
+    monkeypatch.setattr("batik_vector.making.running.render_output", stop)
     found = complaints(call("k.toml", "-f", "svg,pdf"), code)
     assert len(found) == 1
     assert found[0].startswith(words)
 
 
 def test_a_defect_of_the_program_shows_its_traceback(desk: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("batik_vector.making.jobs.render_output", lambda *_: 1 / 0)
+    monkeypatch.setattr("batik_vector.making.running.render_output", lambda *_: 1 / 0)
     result = call("good.toml")
     assert isinstance(result.exception, ZeroDivisionError)

@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 
 from batik_vector.export import FORMATS
-from batik_vector.making.jobs import planned, read_jobs, run_quietly
+from batik_vector.making.jobs import planned, read_jobs
+from batik_vector.making.running import run_quietly
 from batik_vector.studio.asking import Wishes
 from batik_vector.studio.drafts import Draft
 from batik_vector.studio.exports import Exported, download, export, file_names, on_paper, with_output, zipped

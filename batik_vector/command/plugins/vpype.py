@@ -76,7 +76,8 @@ def _page(
     machine: str | None,
 ) -> Page:
     """Return the strokes of a recipe's page."""
-    from batik_vector.making.jobs import read_jobs, shown
+    from batik_vector.making.jobs import read_jobs
+    from batik_vector.making.running import shown
     from batik_vector.recipe.outputs import Piece, SvgOutput
     from batik_vector.recipe.reading.called_processes import read_processes
     from batik_vector.recipe.reading.machines import read_machine
