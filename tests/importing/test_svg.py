@@ -12,7 +12,6 @@ from hypothesis import strategies as st
 
 from batik_vector.artwork import Artwork, Layer, Overlap
 from batik_vector.export import render
-from batik_vector.importing.pens import Cap, Join, Pen, bodies
 from batik_vector.importing.svg import read_svg, read_tile
 from tests.clients.pictures import differing, reference
 from tests.importing.drawings import DISC, MIXED, svg
@@ -362,45 +361,3 @@ def test_where_a_generator_is_named_it_is_believed() -> None:
 def test_a_ring_that_runs_back_over_its_own_curve_keeps_its_face() -> None:
     ring = '<path d="M0 0C0 0 0 0 0 1S4 4 20 0Q0 0 0 0T1 0z" fill="#ff0000"/>'
     assert covered(read_tile(svg(ring)))["#ff0000"] == pytest.approx(32.8, abs=0.05)
-
-
-@pytest.mark.parametrize(("join", "area"), [("mitre", 100.0), ("round", 100.0 + math.pi / 4)])
-def test_a_straight_line_there_and_back_has_its_whole_body(join: Join, area: float) -> None:
-    line = shapely.LineString([(30, 0), (100, 0), (0, 0), (30, 0)])
-    (body,), _ = bodies(np.array([line], dtype=object), 1.0, Pen("flat", join, 4.0), 0.005)
-    assert body.area == pytest.approx(area, rel=1e-3)
-
-
-@pytest.mark.parametrize(
-    ("places", "area"),
-    [
-        ([(0, 0), (10, 0), (10, 10), (0, 10), (0, 0)], 40.0),
-        ([(0, 0), (10, 0), (10, 10), (20, 10), (10, 10)], 30.0 - 0.25),
-        ([(0, 0), (20, 0), (0, 1)], 20.0 + 20.025 - 5.0),
-    ],
-)
-def test_mitres_past_their_limit_are_bevelled(places: list[tuple[float, float]], area: float) -> None:
-    line = np.array([shapely.LineString(places)], dtype=object)
-    (body,), _ = bodies(line, 1.0, Pen("flat", "mitre", 4.0), 0.005)
-    assert body.bounds[2] <= 20.1
-    if len(places) > 3:
-        assert body.area == pytest.approx(area, abs=0.3)
-
-
-@pytest.mark.parametrize(
-    ("cap", "dashes", "begin", "area"),
-    [
-        ("round", (0.0, 4.0), 0.0, 5 * math.pi / 4),
-        ("square", (0.0, 4.0), 0.0, 5.0),
-        ("flat", (0.0, 4.0), 0.0, 0.0),
-        ("round", (0.0, 4.0), 0.1 + 0.2 - 0.3, 5 * math.pi / 4),
-        ("round", (2.0, 2.0), 0.0, 5 * (2 + math.pi / 4)),
-        # A dash that ends where the line begins, and one that begins where it ends, are not there.
-        ("round", (2.0, 2.0), 2.0, 5 * (2 + math.pi / 4)),
-        ("round", (4.0, 4.0, 0.0, 2.0), 1e-17, 2 * (4 + math.pi / 4) + 2 * math.pi / 4),
-    ],
-)
-def test_dashes_of_no_length_are_dots(cap: Cap, dashes: tuple[float, ...], begin: float, area: float) -> None:
-    line = np.array([shapely.LineString([(0, 0), (7, 0), (20, 0)])], dtype=object)
-    shapes, _ = bodies(line, 1.0, Pen(cap, "round", 4.0, dashes, begin), 0.001)
-    assert shapely.area(shapes).sum() == pytest.approx(area, rel=4e-3, abs=1e-4)
