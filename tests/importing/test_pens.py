@@ -1,4 +1,4 @@
-"""Bodies of strokes: ends, joins and dashes cover what SVG says, also where lines run back over themselves."""
+"""Bodies of strokes: ends, joins and dashes cover what SVG says, also where a line runs back over itself."""
 
 from __future__ import annotations
 
