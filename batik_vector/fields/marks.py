@@ -47,10 +47,11 @@ class Useful:
 
 @frozen
 class Says:
-    """One line of help, and the paper's symbol where it has one."""
+    """One line of help, the paper's symbol where it has one, and a word for people where the key is none."""
 
     text: str
     symbol: str = ""
+    called: str = ""
 
 
 HIDDEN = "hidden"

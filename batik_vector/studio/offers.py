@@ -163,8 +163,9 @@ def _least(key: str, tables: Mapping[str, Any]) -> Any:
 
 
 def suggestions(path: Path, drawings: Sequence[tuple[str, str]]) -> tuple[str, ...]:
-    """Return words that a text may be, where some are known: repeats, groups, machines, drawings."""
+    """Return words that a text may be, where some are known: repeats, groups, friezes, machines, drawings."""
     from batik_vector.machines import MACHINES
+    from batik_vector.tiling.symmetry.friezes import FRIEZES
     from batik_vector.tiling.symmetry.groups import GROUPS
 
     key = path[-1]
@@ -172,6 +173,8 @@ def suggestions(path: Path, drawings: Sequence[tuple[str, str]]) -> tuple[str, .
         return (*REPEATS, *GROUPS)
     if key == "symmetry":
         return tuple(GROUPS)
+    if key == "frieze":
+        return tuple(FRIEZES)
     if key == "machine":
         return tuple(MACHINES)
     if key == "palette":

@@ -59,7 +59,7 @@ class Control:
         path: what ``Draft.with_value`` takes.
         kind: ``number``, ``whole``, ``switch``, ``choice`` (one of ``choices``), ``text`` (``choices`` are
             offered), ``colour``, ``names`` (one or several of ``choices``), ``list`` (numbers or words).
-        label: the key, in words.
+        label: the key, in words; of a key that is none, the word for it.
         symbol: the paper's, or nothing.
         help: one line.
         unit: ``mm``, ``°`` or nothing.
@@ -252,7 +252,7 @@ class _Walk:
             kind = said[key].get("kind") if isinstance(said.get(key), dict) else None
             if isinstance(kind, str):
                 return f"{number} {kind}"
-        return str(number)
+        return f"{number} {said['ink']}" if isinstance(said.get("ink"), str) else str(number)
 
     def _members(self, place: Place, path: Path) -> Iterator[Group]:
         held = place.said if place.said is not MISSING else place.default
@@ -336,7 +336,7 @@ class _Walk:
         return Control(
             dotted(path),
             kind,
-            _label(path, around),
+            _label(path, around, says.called if says else ""),
             _symbol(says.symbol if says else "", path, around),
             says.text if says else "",
             "mm" if hint.length else "°" if angle else "",
@@ -414,8 +414,8 @@ def _symbol(symbol: str, path: Path, around: Place | None) -> str:
     return parts[int(path[-1])] if around is not None and len(parts) == len(around.hint.items) else symbol
 
 
-def _label(path: Path, around: Place | None) -> str:
+def _label(path: Path, around: Place | None, called: str = "") -> str:
     if around is None:
-        return str(path[-1]).replace("_", " ")
-    number, name = int(path[-1]), str(path[-2]).replace("_", " ")
+        return called or str(path[-1]).replace("_", " ")
+    number, name = int(path[-1]), called or str(path[-2]).replace("_", " ")
     return f"{name} {'xyzuvw'[number]}" if len(around.hint.items) <= 6 else f"{name} {number + 1}"
