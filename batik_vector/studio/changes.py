@@ -11,7 +11,6 @@ import math
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from itertools import islice
 from typing import Any
 
 from batik_vector.errors import Fault, RecipeError
@@ -32,8 +31,6 @@ SCALED = ("tile", "place", "motif", "ink", "border")
 NEVER_RESET = frozenset({"motif", "name", "kind", "format", "file", "title", *INK_KEYS})
 """Keys that say what something is, not how it looks."""
 NAMED = ("motif", "ink")
-TRIES = 20
-"""Variations tried for one that can be read."""
 
 
 def turned(draft: Draft, degrees: float, path: Where = ()) -> Draft:
@@ -154,19 +151,6 @@ def duplicated(draft: Draft, path: Where) -> tuple[Draft, str]:
     place = list(around).index(where[-1]) + 1
     written = _retitled(draft.copied(where), where, str(fresh[-1]))
     return draft.inserted(fresh, value, place, written), dotted(fresh)
-
-
-def varied(draft: Draft, seed: int, reach: float = 0.5) -> Draft:
-    """Return a variation of a draft, the same one for the same seed; what is locked stays.
-
-    It is one that can be read: numbers that are well each by itself may not go together.
-
-    Raises:
-        RecipeError: where there is no number to vary.
-    """
-    some = islice(variations(draft, seed, reach), TRIES)
-    first = next(some)
-    return first if not first.faults else next((each for each in some if not each.faults), first)
 
 
 def variations(draft: Draft, seed: int, reach: float = 0.5) -> Iterator[Draft]:

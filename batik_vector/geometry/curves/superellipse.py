@@ -21,7 +21,10 @@ class Superellipse(Curve):
     """
 
     a: Annotated[
-        float, Between(0.02, 50), Useful(0.1, 1.2), Says("how full the leaf is towards its tips", "a", "fullness")
+        float,
+        Between(0.02, 50),
+        Useful(0.1, 1.2),
+        Says("how full the leaf is towards its tips", "a", "fullness"),
     ] = 0.2
     b: Annotated[
         float,

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from nicegui import ui
 
 from batik_vector.errors import BatikError
+from batik_vector.studio.page.dialogs import scale
 from batik_vector.studio.page.fields import Row
 from batik_vector.studio.page.parts import group, icon_button, say, telling, text, told, word_button
 from batik_vector.studio.parameters import ABOUT, Control, Group, Panel, panels
@@ -217,6 +218,10 @@ class Section:
         self.foot.clear()
         if self.shown.offers and (self.flat or not self.shown.member):
             self._adding()
+        if self.shown.path == "tile":
+            # Who wants the whole larger looks here first, where the repeat alone grows.
+            with self.foot:
+                word_button("Scale the whole pattern …", lambda: scale(self.session)).classes("more")
 
     def _heading(self) -> None:
         with ui.element("button").classes("section-name").props("type=button") as name:

@@ -369,7 +369,11 @@ class Display:
         self._certified = picture.draft
         faults = found.verdict["faults"]
         passed = found.verdict["passed"]
-        words = "Seam certificate passed" if passed else f"{len(faults)} fault{'s' * (len(faults) > 1)} in the certificate"
+        words = (
+            "Seam certificate passed"
+            if passed
+            else f"{len(faults)} fault{'s' * (len(faults) > 1)} in the certificate"
+        )
         # A browser that takes the picture only now would wipe out what was said of it before.
         self.live.amend({"verdict": words, "passed": passed})
         self._run(f"studio.verdict({json.dumps(words)}, {json.dumps(passed)})")
