@@ -66,6 +66,7 @@ window.studio = (() => {
 
   // Bring a new picture in, and tell what is known of it in the line below.
   function show(text, head) {
+    if (head.part === "verdict") { verdict(head.verdict, head.passed); return setPins(head.pins); }
     const parsed = new DOMParser().parseFromString(text, "image/svg+xml").documentElement;
     if (parsed.nodeName !== "svg") return;
     if (head.part === "motif") return showAlone(parsed, head.name);
@@ -86,7 +87,7 @@ window.studio = (() => {
     const fresh = box[2] !== size[0] || box[3] !== size[1];
     size = [box[2], box[3]];
     guides = head.guides || [];
-    setPins([]);
+    setPins(head.pins || []);
     for (const [name, words] of Object.entries(head.words)) say(`said-${name}`, words);
     if (head.verdict) verdict(head.verdict, head.passed);
     else if (!head.certified) verdict("", true);
@@ -331,12 +332,11 @@ window.studio = (() => {
   for (const name of ["focusin", "keydown", "keyup"]) document.addEventListener(name, nameSlider);
 
   return {
-    mount, show, letGo, verdict, fit, actual, zoom: (factor) => zoom(factor), choose, state: token,
+    mount, show, letGo, fit, actual, zoom: (factor) => zoom(factor), choose, state: token,
     lines: (on) => { lines = on; applyLayers(); },
     layer: (id, on) => { on ? hidden.delete(id) : hidden.add(id); applyLayers(); },
     guides: (on) => { showGuides = on; draw(); },
     pins: (on) => { showPins = on; draw(); },
-    setPins,
     calibrate: (pxPerMm) => { screenMm = pxPerMm; localStorage.setItem("batik-px-per-mm", pxPerMm); draw(); },
     view: () => ({ scale, centre, size }),
   };
