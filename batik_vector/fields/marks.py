@@ -47,7 +47,10 @@ class Useful:
 
 @frozen
 class Says:
-    """One line of help, the paper's symbol where it has one, and a word for people where the key is none."""
+    """One line of help, the paper's symbol where it has one, and a word for people where the key is none.
+
+    Of a pair they are as many as it has numbers, with commas between, both symbols and words.
+    """
 
     text: str
     symbol: str = ""

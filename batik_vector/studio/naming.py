@@ -48,5 +48,8 @@ def label_of(path: Path, around: Place | None, called: str = "") -> str:
     """Return what a value is called: its word or its key; each number of a pair by its axis."""
     if around is None:
         return called or str(path[-1]).replace("_", " ")
-    number, name = int(path[-1]), called or str(path[-2]).replace("_", " ")
+    number = int(path[-1])
+    if len(words := called.split(", ")) == len(around.hint.items):
+        return words[number]
+    name = called or str(path[-2]).replace("_", " ")
     return f"{name} {'xyzuvw'[number]}" if len(around.hint.items) <= 6 else f"{name} {number + 1}"

@@ -66,6 +66,9 @@ def offers(hint: Hint, path: Path, tables: Mapping[str, Any]) -> tuple[Offer, ..
     if path == ("ink",):
         number = len(_table(tables, "ink"))
         return (_named("ink", ("ink",), tables, {"colour": _fresh_colour(number, tables)}),)
+    if path == ("colourway",):
+        free = {name: dotted((*path, free_name(name, _table(tables, "colourway")))) for name in PALETTES}
+        return tuple(Offer(name, where, {"palette": name}, single=True) for name, where in free.items())
     if last == "corner_place" and _corner(path, tables) != "motif":
         return ()
     if last in ("place", "corner_place"):

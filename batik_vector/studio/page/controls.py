@@ -13,7 +13,7 @@ from nicegui import ui
 from batik_vector.errors import BatikError
 from batik_vector.studio.page.dialogs import scale
 from batik_vector.studio.page.fields import Row
-from batik_vector.studio.page.parts import group, icon_button, say, telling, text, told, word_button
+from batik_vector.studio.page.parts import group, icon_button, menu_row, say, telling, text, told, word_button
 from batik_vector.studio.parameters import ABOUT, Control, Group, Panel, panels
 
 if TYPE_CHECKING:
@@ -271,7 +271,7 @@ class Section:
                 ui.menu(),
             ):
                 for offer in offers:
-                    ui.menu_item(offer.label, on_click=lambda offer=offer: self._add(offer))
+                    menu_row(offer.label, lambda offer=offer: self._add(offer))
 
     def _add(self, offer: Offer) -> None:
         self.controls.open.add(offer.path)
