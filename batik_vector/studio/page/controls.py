@@ -6,6 +6,7 @@ What is not opened is not made: a recipe has hundreds of controls, and few are l
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 from typing import TYPE_CHECKING
 
 from nicegui import ui
@@ -271,7 +272,7 @@ class Section:
                 ui.menu(),
             ):
                 for offer in offers:
-                    menu_row(offer.label, lambda offer=offer: self._add(offer))
+                    menu_row(offer.label, partial(self._add, offer))
 
     def _add(self, offer: Offer) -> None:
         self.controls.open.add(offer.path)

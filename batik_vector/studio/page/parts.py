@@ -6,6 +6,7 @@ import asyncio
 import inspect
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from functools import partial
 from typing import Any
 
 from nicegui import ui
@@ -48,11 +49,11 @@ def offering(field: ui.input, label: str, words: Sequence[str], take: Callable[[
         made = ui.button(icon="arrow_drop_down", color=None).props(f'flat dense aria-label="{label}"')
         with made.classes("plain offered"), ui.menu().props("auto-close"):
             for each in words:
-                menu_row(each, lambda each=each: take(each))
+                menu_row(each, partial(take, each))
     return made
 
 
-def menu_row(word: str, action: Callable[[], Any]) -> None:
+def menu_row(word: str, action: Callable[..., Any]) -> None:
     """Draw a row of a menu; a name of a palette stands beside its colours."""
     with ui.menu_item(on_click=action).props("dense"):
         with ui.item_section():
