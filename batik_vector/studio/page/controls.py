@@ -275,7 +275,7 @@ class Section:
                     menu_row(offer.label, partial(self._add, offer))
 
     def _add(self, offer: Offer) -> None:
-        self.controls.open.add(offer.path)
+        self.controls.open.update((self.shown.path, offer.path))
         with told():
             self.session.add(offer)
 
