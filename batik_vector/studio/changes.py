@@ -172,6 +172,29 @@ def _unlocked(draft: Draft, knob: Knob) -> Knob | None:
     return replace(knob, paths=paths) if paths else None
 
 
+def worn(draft: Draft) -> Mapping[Path, str]:
+    """Return the colours that a palette gives inks and cloth, by their paths; nothing where there is none."""
+    if draft.faults or not draft.tables.get("palette"):
+        return {}
+    recipe = draft.recipe
+    given: dict[Path, str] = {("ink", name, "colour"): str(ink.colour) for name, ink in recipe.ink.items()}
+    return {("cloth", "colour"): str(recipe.cloth.colour), **given}
+
+
+def set_by_hand(draft: Draft, path: Where, value: Any) -> Draft:
+    """Return a draft with a value set; where a palette gives its colours, all are the recipe's own then.
+
+    Raises:
+        RecipeError: where it cannot be set.
+    """
+    where = parsed(path)
+    given = worn(draft)
+    if where not in given or value is None:
+        return draft.with_value(path, value)
+    free = draft.without(("palette",))
+    return free.with_values(list({**given, where: value}.items()))
+
+
 def pasted(draft: Draft, text: str) -> tuple[Draft, tuple[str, ...]]:
     """Return a draft with what a text says put in: motifs, inks, placements, outputs and so on.
 

@@ -21,10 +21,22 @@ from batik_vector.recipe.model import Recipe
 from batik_vector.recipe.reading.faults import keyed
 from batik_vector.recipe.reading.field_types import Hint, members
 from batik_vector.recipe.references import INK_KEYS, Path, dotted
-from batik_vector.studio.declared import MISSING, Place, class_of, inner, is_scalar, kind_of, plain_list, root
+from batik_vector.studio.changes import worn
+from batik_vector.studio.declared import (
+    MISSING,
+    Place,
+    class_of,
+    inner,
+    is_scalar,
+    kind_of,
+    label_of,
+    number_of,
+    plain_list,
+    root,
+    sort_of,
+    symbol_of,
+)
 from batik_vector.studio.drafts import Draft, middle_of
-from batik_vector.studio.dyeing import worn
-from batik_vector.studio.naming import label_of, number_of, sort_of, symbol_of
 from batik_vector.studio.offers import Offer, offers, suggestions
 from batik_vector.studio.sliders import span_of, step_of
 from batik_vector.values import frozen

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from batik_vector.studio.changes import set_by_hand, worn
 from batik_vector.studio.drafts import Draft
-from batik_vector.studio.dyeing import set_by_hand, worn
 from batik_vector.studio.parameters import controls
 from tests.studio.test_changes import SAMPLES
 

@@ -9,8 +9,8 @@ import pytest
 from batik_vector.errors import RecipeError
 from batik_vector.studio.changes import variations
 from batik_vector.studio.drafts import Draft
+from batik_vector.studio.page.trying import GLANCE, TRIAL, held, lack_of
 from batik_vector.studio.pictures import Picture, Pictures
-from batik_vector.studio.trying import GLANCE, TRIAL, held, lack_of
 from batik_vector.studio.views import Looker
 from tests.studio.test_changes import SAMPLES
 

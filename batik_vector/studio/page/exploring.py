@@ -12,8 +12,8 @@ from batik_vector.errors import BatikError
 from batik_vector.studio.changes import variations
 from batik_vector.studio.page.dialogs import dialog
 from batik_vector.studio.page.parts import complain, group, say, telling, text, word_button
+from batik_vector.studio.page.trying import GLANCE, LIMIT, SMALL, TRIAL, lack_of
 from batik_vector.studio.parameters import Control, controls
-from batik_vector.studio.trying import GLANCE, LIMIT, SMALL, TRIAL, lack_of
 
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable, Iterator

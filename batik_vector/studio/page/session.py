@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING, Any
 from batik_vector.errors import BatikError, Fault
 from batik_vector.studio import changes, drops
 from batik_vector.studio.aside import Aside
+from batik_vector.studio.changes import set_by_hand
 from batik_vector.studio.drafts import Draft, parsed
-from batik_vector.studio.dyeing import set_by_hand
 from batik_vector.studio.journal import Desk
 from batik_vector.studio.page.listeners import added, call
+from batik_vector.studio.page.trying import held
 from batik_vector.studio.pictures import Picture, Pictures
 from batik_vector.studio.saving import Saving, fingerprint, save
 from batik_vector.studio.shelf import Shelf
-from batik_vector.studio.trying import held
 
 if TYPE_CHECKING:
     from batik_vector.studio.asking import View
