@@ -315,7 +315,10 @@ class HpglOptions:
     ] = 10.0
     sheet: Annotated[
         tuple[Annotated[int, Between(1, 9999)], Annotated[int, Between(1, 9999)]] | None,
-        Says("column and row of the one page of a divided drawing that is written; all of them if unset"),
+        Says(
+            "column and row of the one page of a divided drawing that is written; all of them if unset",
+            called="column, row",
+        ),
     ] = None
     turn: Annotated[
         Turn, Says("quarter turns of the drawing: none, left, over, right, or as it fits (auto)")

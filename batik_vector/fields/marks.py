@@ -47,10 +47,14 @@ class Useful:
 
 @frozen
 class Says:
-    """One line of help, and the paper's symbol where it has one."""
+    """One line of help, the paper's symbol where it has one, and a word for people where the key is none.
+
+    Of a pair they are as many as it has numbers, with commas between, both symbols and words.
+    """
 
     text: str
     symbol: str = ""
+    called: str = ""
 
 
 HIDDEN = "hidden"

@@ -149,7 +149,10 @@ class CutProcess(StrokeProcess):
     ] = None
     sheet: Annotated[
         tuple[Annotated[Length, Between(1, 100_000)], Annotated[Length, Between(1, 100_000)]] | None,
-        Says("nest the pieces on a sheet of this breadth and height; they stay where they are if unset"),
+        Says(
+            "nest the pieces on a sheet of this breadth and height; they stay where they are if unset",
+            called="sheet's breadth, sheet's height",
+        ),
     ] = None
     gap: Annotated[Annotated[Length, Between(0, 1000)], Says("how far nested pieces keep apart")] = 3.0
     turns: Annotated[Turns, Says("how nested pieces may be turned")] = Turns.QUARTER
@@ -241,7 +244,10 @@ class WaxProcess(ProcessSpec):
     ] = field(default_factory=dict)
     cap: Annotated[
         tuple[Annotated[Length, Between(5, 5000)], Annotated[Length, Between(5, 5000)]] | None,
-        Says("breadth and height of a stamp at most: a file for each that the repeat takes; none if unset"),
+        Says(
+            "breadth and height of a stamp at most: a file for each that the repeat takes; none if unset",
+            called="stamp's breadth, stamp's height",
+        ),
     ] = None
     pins: Annotated[
         Annotated[Length, Between(0.2, 20)], Says("diameter of the pins at the corners of a stamp")

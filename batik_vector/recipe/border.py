@@ -83,7 +83,10 @@ class BorderSpec:
     (0) inwards; what reaches beyond the depth is cut off.
     """
 
-    size: Annotated[tuple[Measure, Measure], Says("period along the band, and depth from its outer edge")]
+    size: Annotated[
+        tuple[Measure, Measure],
+        Says("period along the band, and depth from its outer edge", called="period, depth"),
+    ]
     place: Annotated[
         tuple[Placement, ...], Says("what lies in one period, bottom first; the frieze repeats it")
     ] = ()

@@ -43,11 +43,18 @@ class InkSpec:
         Colour | None, Says("colour that is this ink in drawings which keep theirs; its own when left out")
     ] = None
     cmyk: Annotated[
-        Cmyk | None, Says("its colour in print, in per cent: the alternate of its separation in PDF")
+        Cmyk | None,
+        Says(
+            "its colour in print, in per cent: the alternate of its separation in PDF",
+            called="cyan, magenta, yellow, black",
+        ),
     ] = None
     lab: Annotated[
         Lab | None,
-        Says("its colour as measured, L*, a*, b* under D50: the alternate of its separation in PDF"),
+        Says(
+            "its colour as measured, L*, a*, b* under D50: the alternate of its separation in PDF",
+            called="L*, a*, b*",
+        ),
     ] = None
 
     def __post_init__(self) -> None:

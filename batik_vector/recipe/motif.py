@@ -39,9 +39,14 @@ class Leaf(Dress):
     """The leaves of a flower: superellipses through the centre. Tian et al. 2019, Eq. 6."""
 
     a: Annotated[
-        float, Between(0.02, 50), Useful(0.1, 1.2), Says("how full the leaf is towards its tips", "a")
+        float,
+        Between(0.02, 50),
+        Useful(0.1, 1.2),
+        Says("how full the leaf is towards its tips", "a", "fullness"),
     ] = 0.2
-    b: Annotated[float, Between(0.02, 50), Useful(0.6, 20), Says("how pointed the tips are", "b")] = 10.0
+    b: Annotated[
+        float, Between(0.02, 50), Useful(0.6, 20), Says("how pointed the tips are", "b", "points")
+    ] = 10.0
     length: Annotated[float, Between(1e-3, 1e3), Says("distance of a tip from the centre", "r1 = 2l")] = 1.2
     width: Annotated[float, Between(1e-3, 1e3), Says("half the breadth of a leaf", "r2 = l/2")] = 0.3
     count: Annotated[int, Between(0, 360), Useful(4, 24), Says("leaf tips; 0 leaves them out")] = 8
@@ -65,7 +70,10 @@ class Petals(Dress):
 
     length: Annotated[float, Between(1e-3, 1e3), Says("length of a petal", "a1")] = 1.0
     n: Annotated[
-        int, Between(1, 64), Useful(2, 6), Says("the rose whose petal it is; the larger, the slimmer", "n")
+        int,
+        Between(1, 64),
+        Useful(2, 6),
+        Says("the rose whose petal it is; the larger, the slimmer", "n", "slimness"),
     ] = 2
     count: Annotated[int, Between(0, 360), Useful(3, 24), Says("petals; 0 leaves them out")] = 8
     turn: Annotated[float, Between(-360, 360), Says("degrees; 0 points a petal along +x")] = 0.0
@@ -191,7 +199,7 @@ Place: TypeAlias = tuple[Coordinate, Coordinate]
 class PathMotif(Dress):
     """A drawing of one's own, written as SVG path data: a single element of a ``path`` curve."""
 
-    d: Annotated[str, Says(PATH_DATA)]
+    d: Annotated[str, Says(PATH_DATA, called="path")]
     y: Annotated[YAxis, Says("where their y points")] = YAxis.DOWN
     centre: Annotated[
         Place | None,

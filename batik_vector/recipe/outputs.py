@@ -106,7 +106,9 @@ class SvgOutput(OutputSpec, SvgOptions):
     format = "svg"
     writer = SvgOptions
     travel: Ways = False
-    repeat: Annotated[tuple[Count, Count], Says("how many tiles across and up")] = (1, 1)
+    repeat: Annotated[
+        tuple[Count, Count], Says("how many tiles across and up", called="tiles across, tiles up")
+    ] = (1, 1)
     marks: Marks = False
 
 
@@ -174,7 +176,9 @@ class PngOutput(OutputSpec, PngOptions):
     format = "png"
     writer = PngOptions
     travel: Ways = False
-    repeat: Annotated[tuple[Count, Count], Says("how many tiles across and up")] = (1, 1)
+    repeat: Annotated[
+        tuple[Count, Count], Says("how many tiles across and up", called="tiles across, tiles up")
+    ] = (1, 1)
     marks: Marks = False
 
     @property

@@ -26,6 +26,7 @@ class View:
         across, up: tiles of a field.
         certify: whether the tile is measured too, for the verdict.
         pointers: whether what the certificate finds wrong is marked in the picture, in a layer "check".
+        floor: whether the tile is held to what ``batik-vector random`` asks of a variation.
         motif: name of a motif that is looked at alone, whatever the kind; nothing for the whole.
         rough: whether it is looked at for a moment alone, while a slider moves: edges may be some pixels off.
     """
@@ -38,6 +39,7 @@ class View:
     certify: bool = False
     pointers: bool = False
     rough: bool = False
+    floor: bool = False
     motif: str = ""
 
     def __post_init__(self) -> None:

@@ -11,7 +11,6 @@ import math
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from itertools import islice
 from typing import Any
 
 from batik_vector.errors import Fault, RecipeError
@@ -32,8 +31,6 @@ SCALED = ("tile", "place", "motif", "ink", "border")
 NEVER_RESET = frozenset({"motif", "name", "kind", "format", "file", "title", *INK_KEYS})
 """Keys that say what something is, not how it looks."""
 NAMED = ("motif", "ink")
-TRIES = 20
-"""Variations tried for one that can be read."""
 
 
 def turned(draft: Draft, degrees: float, path: Where = ()) -> Draft:
@@ -156,19 +153,6 @@ def duplicated(draft: Draft, path: Where) -> tuple[Draft, str]:
     return draft.inserted(fresh, value, place, written), dotted(fresh)
 
 
-def varied(draft: Draft, seed: int, reach: float = 0.5) -> Draft:
-    """Return a variation of a draft, the same one for the same seed; what is locked stays.
-
-    It is one that can be read: numbers that are well each by itself may not go together.
-
-    Raises:
-        RecipeError: where there is no number to vary.
-    """
-    some = islice(variations(draft, seed, reach), TRIES)
-    first = next(some)
-    return first if not first.faults else next((each for each in some if not each.faults), first)
-
-
 def variations(draft: Draft, seed: int, reach: float = 0.5) -> Iterator[Draft]:
     """Yield variations of a draft without end; whether they hold on cloth the certificate tells.
 
@@ -186,6 +170,29 @@ def variations(draft: Draft, seed: int, reach: float = 0.5) -> Iterator[Draft]:
 def _unlocked(draft: Draft, knob: Knob) -> Knob | None:
     paths = tuple(path for path in knob.paths if not draft.is_locked(path))
     return replace(knob, paths=paths) if paths else None
+
+
+def worn(draft: Draft) -> Mapping[Path, str]:
+    """Return the colours that a palette gives inks and cloth, by their paths; nothing where there is none."""
+    if draft.faults or not draft.tables.get("palette"):
+        return {}
+    recipe = draft.recipe
+    given: dict[Path, str] = {("ink", name, "colour"): str(ink.colour) for name, ink in recipe.ink.items()}
+    return {("cloth", "colour"): str(recipe.cloth.colour), **given}
+
+
+def set_by_hand(draft: Draft, path: Where, value: Any) -> Draft:
+    """Return a draft with a value set; where a palette gives its colours, all are the recipe's own then.
+
+    Raises:
+        RecipeError: where it cannot be set.
+    """
+    where = parsed(path)
+    given = worn(draft)
+    if where not in given or value is None:
+        return draft.with_value(path, value)
+    free = draft.without(("palette",))
+    return free.with_values(list({**given, where: value}.items()))
 
 
 def pasted(draft: Draft, text: str) -> tuple[Draft, tuple[str, ...]]:

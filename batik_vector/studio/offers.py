@@ -66,6 +66,9 @@ def offers(hint: Hint, path: Path, tables: Mapping[str, Any]) -> tuple[Offer, ..
     if path == ("ink",):
         number = len(_table(tables, "ink"))
         return (_named("ink", ("ink",), tables, {"colour": _fresh_colour(number, tables)}),)
+    if path == ("colourway",):
+        free = {name: dotted((*path, free_name(name, _table(tables, "colourway")))) for name in PALETTES}
+        return tuple(Offer(name, where, {"palette": name}, single=True) for name, where in free.items())
     if last == "corner_place" and _corner(path, tables) != "motif":
         return ()
     if last in ("place", "corner_place"):
@@ -163,8 +166,9 @@ def _least(key: str, tables: Mapping[str, Any]) -> Any:
 
 
 def suggestions(path: Path, drawings: Sequence[tuple[str, str]]) -> tuple[str, ...]:
-    """Return words that a text may be, where some are known: repeats, groups, machines, drawings."""
+    """Return words that a text may be, where some are known: repeats, groups, friezes, machines, drawings."""
     from batik_vector.machines import MACHINES
+    from batik_vector.tiling.symmetry.friezes import FRIEZES
     from batik_vector.tiling.symmetry.groups import GROUPS
 
     key = path[-1]
@@ -172,6 +176,8 @@ def suggestions(path: Path, drawings: Sequence[tuple[str, str]]) -> tuple[str, .
         return (*REPEATS, *GROUPS)
     if key == "symmetry":
         return tuple(GROUPS)
+    if key == "frieze":
+        return tuple(FRIEZES)
     if key == "machine":
         return tuple(MACHINES)
     if key == "palette":

@@ -17,16 +17,28 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from batik_vector.errors import Fault
-from batik_vector.fields import parse_colour
 from batik_vector.recipe.model import Recipe
 from batik_vector.recipe.reading.faults import keyed
 from batik_vector.recipe.reading.field_types import Hint, members
 from batik_vector.recipe.references import INK_KEYS, Path, dotted
-from batik_vector.studio.declared import MISSING, Place, class_of, inner, is_scalar, kind_of, plain_list, root
+from batik_vector.studio.changes import worn
+from batik_vector.studio.declared import (
+    MISSING,
+    Place,
+    class_of,
+    inner,
+    is_scalar,
+    kind_of,
+    label_of,
+    number_of,
+    plain_list,
+    root,
+    sort_of,
+    symbol_of,
+)
 from batik_vector.studio.drafts import Draft, middle_of
 from batik_vector.studio.offers import Offer, offers, suggestions
 from batik_vector.studio.sliders import span_of, step_of
-from batik_vector.units import parse_length
 from batik_vector.values import frozen
 
 PANELS: Mapping[str, tuple[str, ...]] = {
@@ -59,7 +71,7 @@ class Control:
         path: what ``Draft.with_value`` takes.
         kind: ``number``, ``whole``, ``switch``, ``choice`` (one of ``choices``), ``text`` (``choices`` are
             offered), ``colour``, ``names`` (one or several of ``choices``), ``list`` (numbers or words).
-        label: the key, in words.
+        label: the key, in words; of a key that is none, the word for it.
         symbol: the paper's, or nothing.
         help: one line.
         unit: ``mm``, ``°`` or nothing.
@@ -192,6 +204,7 @@ class _Faults:
 class _Walk:
     def __init__(self, draft: Draft, tables: Mapping[str, Any], faults: _Faults) -> None:
         self._draft, self._tables, self._faults = draft, tables, faults
+        self._worn = worn(draft)
 
     def scalars(self, whole: Place, key: str = "") -> Group:
         """Return the recipe's own keys: its title, tolerance and so on; or one that stands elsewhere."""
@@ -252,7 +265,7 @@ class _Walk:
             kind = said[key].get("kind") if isinstance(said.get(key), dict) else None
             if isinstance(kind, str):
                 return f"{number} {kind}"
-        return str(number)
+        return f"{number} {said['ink']}" if isinstance(said.get("ink"), str) else str(number)
 
     def _members(self, place: Place, path: Path) -> Iterator[Group]:
         held = place.said if place.said is not MISSING else place.default
@@ -326,18 +339,18 @@ class _Walk:
         says = (around or place).hint.says
         is_set = place.said is not MISSING
         default = self._default(place, path)
-        value = _number(hint, place.said) if is_set else default
+        value = self._worn.get(path, number_of(hint, place.said) if is_set else default)
         angle = says is not None and says.text.startswith("degrees")
         choices = self._choices(hint, path)
-        kind = kind or ("choice" if path[-1] in INK_KEYS else _kind_of(hint, bool(choices)))
+        kind = kind or ("choice" if path[-1] in INK_KEYS else sort_of(hint, bool(choices)))
         least, most = (hint.bounds.low, hint.bounds.high) if hint.bounds else (None, None)
         useful = (hint.useful.low, hint.useful.high) if hint.useful else None
         span = span_of(hint, useful, value, default, angle) if kind in ("number", "whole") else None
         return Control(
             dotted(path),
             kind,
-            _label(path, around),
-            _symbol(says.symbol if says else "", path, around),
+            label_of(path, around, says.called if says else ""),
+            symbol_of(says.symbol if says else "", path, around),
             says.text if says else "",
             "mm" if hint.length else "°" if angle else "",
             least,
@@ -380,42 +393,3 @@ class _Walk:
 
 def _is_needed(place: Place) -> bool:
     return place.default is MISSING
-
-
-def _kind_of(hint: Hint, offered: bool) -> str:
-    if hint.base is bool:
-        return "switch"
-    if hint.names:
-        return "choice"
-    if hint.several:
-        return "names"
-    if hint.base is int:
-        return "whole"
-    if hint.base is float:
-        return "number"
-    if hint.text is not None and hint.text.parse is parse_colour:
-        return "colour"
-    return "text" if hint.base is str or offered else "list"
-
-
-def _number(hint: Hint, said: Any) -> Any:
-    """Return what is said, a length in mm; what is no length as it stands."""
-    if not hint.length:
-        return said
-    try:
-        return parse_length(said)
-    except ValueError:
-        return said
-
-
-def _symbol(symbol: str, path: Path, around: Place | None) -> str:
-    """Return the paper's symbol of a value; of a pair (``dx, dy``) each number has its own."""
-    parts = symbol.split(", ")
-    return parts[int(path[-1])] if around is not None and len(parts) == len(around.hint.items) else symbol
-
-
-def _label(path: Path, around: Place | None) -> str:
-    if around is None:
-        return str(path[-1]).replace("_", " ")
-    number, name = int(path[-1]), str(path[-2]).replace("_", " ")
-    return f"{name} {'xyzuvw'[number]}" if len(around.hint.items) <= 6 else f"{name} {number + 1}"

@@ -36,6 +36,8 @@ def span_of(
     if ends is None:
         usual = LENGTH if hint.length else 1.0
         most = max(2 * abs(held[-1]) if held else 0.0, 10 * max(low, 0.0)) or usual
+        if held and abs(held[0]) > most:
+            most = 1.5 * abs(held[0])
         most = _round_up(max(most, SHORTEST))
         ends = max(low, -most if low < 0 else 0.0), min(high, most)
     return max(low, min([ends[0], *held])), min(high, max([ends[1], *held]))

@@ -60,7 +60,8 @@ class Shown:
     Args:
         svg: the picture; empty where there are faults.
         facts: as ``compile --json`` reports them, and ``size_mm``, what the picture shows; ``warnings``.
-        verdict: as ``check --json`` reports it; empty where it was not asked for.
+        verdict: as ``check --json`` reports it; empty where it was not asked for. With ``View.floor`` also
+            ``lack``, what the tile lacks as a variation, or nothing.
         faults: why there is no picture.
         seconds: that it took.
     """
@@ -108,6 +109,10 @@ class Looker:
             verdict = certificate.as_dict()
             if view.pointers and not certificate.passed:
                 drawn = pointers(tile, certificate)
+        if tile is not None and view.floor:
+            from batik_vector.making.exploring import Floor
+
+            verdict = {**verdict, "lack": Floor().fault(tile)}
         facts: dict[str, Any] = facts_of(tile, None)
         facts["warnings"] = warnings(recipe, tile) if tile is not None else []
         svg, size = self._drawn(recipe, drawn, view, tell)

@@ -11,9 +11,13 @@ import pytest
 
 pytest.importorskip("nicegui", reason="make test-clients installs the studio")
 
+from batik_vector.studio.changes import variations
 from batik_vector.studio.drafts import Draft
+from batik_vector.studio.page.fields import shown
+from batik_vector.studio.parameters import controls
 from tests.clients.studio import Page, Studio, browser, studio
 from tests.clients.test_studio import PETAL, ROOT, compiled
+from tests.studio.test_trying import KAWUNG, SAID, SLIT, tried
 
 pytestmark = pytest.mark.clients
 
@@ -167,6 +171,55 @@ def test_variations_over_two_numbers_stand_in_rows_and_one_is_taken(opened: Page
     taken = opened.settled(before)
     page.get_by_role("button", name="Undo").click()
     assert opened.settled(taken) == before
+
+
+def test_what_is_drawn_at_random_holds_before_it_is_taken(chromium: Any, tmp_path: Path) -> None:
+    first = next(variations(KAWUNG, 0))
+    assert tried(first)
+    wanted = next(each for each in variations(KAWUNG, 0) if not tried(each))
+    path, value = next(
+        (path, each.value)
+        for path, each in controls(wanted).items()
+        if each.kind in ("number", "whole") and each.value != controls(KAWUNG)[path].value
+    )
+    with studio(tmp_path / "own", str(ROOT / "samples" / "kawung.toml")) as made:
+        page = Page(chromium, made.address)
+        before = page.picture()
+        page.page.get_by_role("button", name="Explore variations").click()
+        cards = page.page.locator(".contact .pattern:has(img[src])")
+        cards.nth(11).wait_for()
+        cards.first.click()
+        page.page.get_by_role("dialog").wait_for(state="detached")
+        page.settled(before)
+        page.says(path, shown(value))
+        page.page.locator(".status .good", has_text="Seam certificate passed").wait_for()
+        assert not page.errors
+
+
+def test_pointers_of_the_certificate_say_what_they_point_at(chromium: Any, tmp_path: Path) -> None:
+    recipe = tmp_path / "squares.toml"
+    recipe.write_text(SLIT)
+    with studio(tmp_path / "own", str(recipe)) as made:
+        page = Page(chromium, made.address).page
+        page.locator(".status .bad", has_text="1 fault in the certificate").wait_for()
+        pin, words = page.locator(".over .pin"), page.locator(".stage ~ .words li")
+        words.get_by_text(SAID).wait_for()
+        assert (pin.count(), words.count()) == (1, 1)
+        assert SAID in str(pin.locator("title").text_content())
+        # It points at the left edge, half way up: 0.01 mm from it, and 30 of 60.
+        where, seen = pin.bounding_box(), page.evaluate("studio.view()")
+        stage = page.locator(".stage").bounding_box()
+        assert where
+        assert stage
+        at = [where["x"] + where["width"] / 2 - stage["x"], where["y"] + where["height"] / 2 - stage["y"]]
+        middle = [stage["width"] / 2, stage["height"] / 2]
+        in_mm = [seen["centre"][n] + (at[n] - middle[n]) / seen["scale"] for n in (0, 1)]
+        assert in_mm == pytest.approx([0.01, 30], abs=0.5)
+        page.get_by_role("button", name="Pointers of the certificate").click()
+        pin.wait_for(state="detached")
+        words.wait_for(state="hidden")
+        page.get_by_role("button", name="Pointers of the certificate").click()
+        pin.wait_for()
 
 
 @pytest.mark.parametrize("format", ["pdf", "dxf"])

@@ -86,6 +86,33 @@ def test_who_takes_a_picture_late_is_told_its_verdict_with_it() -> None:
     asyncio.run(run())
 
 
+def test_a_verdict_follows_its_picture_and_never_comes_after_a_newer_one() -> None:
+    async def run() -> list[tuple[str, int | None, str | None]]:
+        live, socket = Live(lambda *_: None), Socket()
+        serving = asyncio.create_task(live.serve(socket))  # type: ignore[arg-type]
+        await rest()
+        live.put({"n": 0}, b"<svg/>")
+        await rest()
+        # The browser has yet to show it.
+        live.amend({"verdict": "passed"})
+        await rest()
+        assert len(socket.seen) == 1
+        socket.says.put_nowait('"shown"')
+        await rest()
+        live.put({"n": 1}, b"<svg/>")
+        await rest()
+        live.amend({"verdict": "late"})
+        live.put({"n": 2}, b"<svg/>")
+        for _ in range(3):
+            socket.says.put_nowait('"shown"')
+            await rest()
+        socket.says.put_nowait(None)
+        await serving
+        return [(head["part"], head.get("n"), head.get("verdict")) for head, _ in socket.seen]
+
+    assert asyncio.run(run()) == [("", 0, None), ("verdict", None, "passed"), ("", 2, None)]
+
+
 def test_a_motif_alone_does_not_take_the_place_of_the_pattern() -> None:
     async def run() -> list[tuple[str, bytes]]:
         live, socket = Live(lambda *_: None), Socket()

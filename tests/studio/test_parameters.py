@@ -7,6 +7,7 @@ import pytest
 from batik_vector.errors import Fault, RecipeError
 from batik_vector.studio.drafts import Draft
 from batik_vector.studio.parameters import PANELS, Control, Group, controls, panels
+from tests.studio.test_changes import SAMPLES
 from tests.studio.test_drafts import FLOWER
 from tests.studio.text.test_rewriting import TEXTS
 
@@ -84,6 +85,20 @@ def test_every_control_holds_its_value_within_its_slider(name: str) -> None:
 def test_a_value_next_to_nothing_has_a_slider() -> None:
     path = "motif.flower.vein.gap"
     check(controls(Draft(TEXTS["bird"]).with_value(path, 5e-324), ())[path])
+
+
+def test_what_is_drawn_in_millimetres_can_be_made_larger_still() -> None:
+    long = controls(Draft.read(SAMPLES / "kawung.toml"))["motif.kawung.elements[0].curve.length"]
+    assert long.useful is None
+    assert long.span is not None
+    assert long.span[1] >= 1.4 * long.value
+
+
+def test_a_key_that_is_no_word_is_called_by_one() -> None:
+    found = controls(Draft(FLOWER))
+    assert (found["motif.a.petal.n"].label, found["motif.a.petal.n"].symbol) == ("slimness", "n")
+    letters = {each.label for each in found.values() if len(each.label) == 1}
+    assert not letters
 
 
 def check(control: Control) -> None:

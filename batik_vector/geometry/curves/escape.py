@@ -97,7 +97,10 @@ class Julia(Escape):
     reference 31 prints such sets on cloth. https://mathworld.wolfram.com/JuliaSet.html
     """
 
-    c: Annotated[tuple[Coordinate, Coordinate], Says("real and imaginary part of c")] = (-0.8, 0.156)
+    c: Annotated[
+        tuple[Coordinate, Coordinate],
+        Says("real and imaginary part of c", called="real part, imaginary part"),
+    ] = (-0.8, 0.156)
 
     def constant(self) -> complex:
         """Return c."""

@@ -22,8 +22,8 @@ class Hypocycloid(Curve):
     Tian et al. 2019, Eq. 13; over the paper's [0, 20π] the curve is traced up to ten times.
     """
 
-    m: Annotated[int, Between(2, 96), Useful(5, 24), Says("cusps", "m")] = 16
-    n: Annotated[int, Between(1, 48), Says("how far apart joined cusps stand", "n")] = 5
+    m: Annotated[int, Between(2, 96), Useful(5, 24), Says("cusps", "m", "cusps")] = 16
+    n: Annotated[int, Between(1, 48), Says("how far apart joined cusps stand", "n", "steps")] = 5
     length: Annotated[float, Between(1e-3, 1e3), Says("distance of the cusps from the centre", "r1")] = 0.8
 
     def __post_init__(self) -> None:

@@ -42,7 +42,7 @@ class PathCurve(Outlined):
     https://www.w3.org/TR/SVG2/paths.html
     """
 
-    d: Annotated[str, Says(PATH_DATA)]
+    d: Annotated[str, Says(PATH_DATA, called="path")]
     y: Annotated[YAxis, Says("where their y points")] = YAxis.DOWN
     centre: Annotated[
         tuple[Coordinate, Coordinate], Says("the point of theirs that becomes the motif's centre")

@@ -24,9 +24,9 @@ class Rose(Curve):
     """
 
     n: Annotated[
-        int, Between(1, 128), Useful(2, 12), Says("petals: n when n·d is odd, 2n when even", "n")
+        int, Between(1, 128), Useful(2, 12), Says("petals: n when n·d is odd, 2n when even", "n", "petals")
     ] = 2
-    d: Annotated[int, Between(1, 64), Says("how often the petals overlap")] = 1
+    d: Annotated[int, Between(1, 64), Says("how often the petals overlap", called="overlap")] = 1
     length: Annotated[float, Between(1e-3, 1e3), Says("length of a petal", "a1")] = 1.0
 
     @property
@@ -68,7 +68,7 @@ class Petal(Curve):
     """One petal of the rose r = length·cos(nθ), |θ| ≤ π/2n, from the centre along +x and back."""
 
     n: Annotated[
-        int, Between(1, 64), Useful(2, 6), Says("the rose it is of; the larger, the slimmer", "n")
+        int, Between(1, 64), Useful(2, 6), Says("the rose it is of; the larger, the slimmer", "n", "slimness")
     ] = 2
     length: Annotated[float, Between(1e-3, 1e3), Says("length of the petal", "a1")] = 1.0
 

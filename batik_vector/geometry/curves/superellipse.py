@@ -21,13 +21,16 @@ class Superellipse(Curve):
     """
 
     a: Annotated[
-        float, Between(0.02, 50), Useful(0.1, 1.2), Says("how full the leaf is towards its tips", "a")
+        float,
+        Between(0.02, 50),
+        Useful(0.1, 1.2),
+        Says("how full the leaf is towards its tips", "a", "fullness"),
     ] = 0.2
     b: Annotated[
         float,
         Between(0.02, 50),
         Useful(0.6, 20),
-        Says("how pointed the tips are; above 1 they are cusps", "b"),
+        Says("how pointed the tips are; above 1 they are cusps", "b", "points"),
     ] = 10.0
     length: Annotated[float, Between(1e-3, 1e3), Says("half the long axis", "r1 = 2l")] = 1.0
     width: Annotated[float, Between(1e-3, 1e3), Says("half the short axis", "r2 = l/2")] = 0.25

@@ -32,7 +32,8 @@ class CrackleProcess(ProcessSpec):
     ] = 8.0
     seed: Annotated[Seed, Says("which cracks")] = 0
     width: Annotated[
-        tuple[Breadth, Breadth], Says("breadth of the youngest crack, and of the oldest; most are narrow")
+        tuple[Breadth, Breadth],
+        Says("breadth of the youngest crack, and of the oldest; most are narrow", called="youngest, oldest"),
     ] = (0.12, 0.6)
     dye: Annotated[
         str, Says("ink that came in through the cracks, or the cloth's ground (cloth); the darkest if unset")

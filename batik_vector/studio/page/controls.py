@@ -6,13 +6,15 @@ What is not opened is not made: a recipe has hundreds of controls, and few are l
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 from typing import TYPE_CHECKING
 
 from nicegui import ui
 
 from batik_vector.errors import BatikError
+from batik_vector.studio.page.dialogs import scale
 from batik_vector.studio.page.fields import Row
-from batik_vector.studio.page.parts import group, icon_button, say, telling, text, told, word_button
+from batik_vector.studio.page.parts import group, icon_button, menu_row, say, telling, text, told, word_button
 from batik_vector.studio.parameters import ABOUT, Control, Group, Panel, panels
 
 if TYPE_CHECKING:
@@ -31,6 +33,9 @@ CALLED = {
     "output": "file",
 }
 """What members of lists are called on buttons, whose key is another word."""
+HEADED = {"tile": "size and repeat", "cloth": "dye", "": "title and precision"}
+"""What stands over groups whose key is also the word for their panel, or which have none."""
+NO_FILES = "The recipe asks for no files of its own: Export makes any."
 
 
 def is_plain(control: Control) -> bool:
@@ -128,6 +133,7 @@ class Section:
         self.shown = shown
         self._rows: dict[str, Row] = {}
         self._shape: tuple[object, ...] = ()
+        self.dot: ui.element | None = None
         # A list among the panel's own headings says nothing that its members do not say.
         self.flat = depth == 1 and shown.path in ("motif", "place", "ink", "output", "palette")
         kind = " flat" if self.flat else " member" if shown.member else ""
@@ -174,6 +180,8 @@ class Section:
         if shape != self._shape:
             self._shape = shape
             self._build(more)
+        else:
+            self._dye()
         for control in shown.controls:
             if control.path in self._rows:
                 self._rows[control.path].update(control)
@@ -198,6 +206,8 @@ class Section:
         with self.body:
             if self.shown.fault:
                 text(self.shown.fault, "fault").props("role=alert")
+            if self.shown.path == "output" and not self.shown.groups:
+                text(NO_FILES, "quiet small empty", "p")
             few = len(self.shown.controls) <= MOST_PLAIN
             plain = [each for each in self.shown.controls if few or more or is_plain(each)]
             for control in plain:
@@ -209,17 +219,23 @@ class Section:
         self.foot.clear()
         if self.shown.offers and (self.flat or not self.shown.member):
             self._adding()
+        if self.shown.path == "tile":
+            # Who wants the whole larger looks here first, where the repeat alone grows.
+            with self.foot:
+                word_button("Scale the whole pattern …", lambda: scale(self.session)).classes("more")
 
     def _heading(self) -> None:
         with ui.element("button").classes("section-name").props("type=button") as name:
             name.props(f"aria-expanded={'true' if self.is_open else 'false'}")
             ui.icon("expand_more" if self.is_open else "chevron_right", size="18px").props("aria-hidden=true")
-            text(self.shown.label, "label")
+            text(HEADED.get(self.shown.path, self.shown.label), "label")
+            self.dot = group("dot") if self._colour() else None
             if self.depth == 0:
                 text(self.shown.help, "about quiet small")
             if not self.is_open and any(each.fault for each in self.shown.all_controls()):
                 ui.icon("error", size="16px").classes("fault")
         name.on("click", self.toggle)
+        self._dye()
         path = self.shown.path
         if self.shown.member and self._siblings > 1:
             up, down = (telling(lambda by=by: self.session.move(path, by)) for by in (-1, 1))
@@ -231,6 +247,17 @@ class Section:
             )
         if self.shown.member or (self.shown.optional and self.shown.is_set and self.depth > 1):
             icon_button("close", f"Remove {self.shown.label}", telling(lambda: self.session.remove(path)))
+
+    def _colour(self) -> str:
+        """Return the colour that the section is about, or nothing."""
+        path = f"{self.shown.path}.colour"
+        found = (each.value for each in self.shown.controls if each.path == path and each.kind == "colour")
+        return str(next(found, None) or "")
+
+    def _dye(self) -> None:
+        """Show that colour beside its name."""
+        if self.dot is not None:
+            self.dot.style(f"background: {self._colour()}")
 
     def _adding(self) -> None:
         offers = self.shown.offers
@@ -245,10 +272,10 @@ class Section:
                 ui.menu(),
             ):
                 for offer in offers:
-                    ui.menu_item(offer.label, on_click=lambda offer=offer: self._add(offer))
+                    menu_row(offer.label, partial(self._add, offer))
 
     def _add(self, offer: Offer) -> None:
-        self.controls.open.add(offer.path)
+        self.controls.open.update((self.shown.path, offer.path))
         with told():
             self.session.add(offer)
 

@@ -144,11 +144,25 @@ def paste(session: Session) -> None:
 
 
 def scale(session: Session) -> None:
-    """Ask for a factor, and scale the pattern."""
+    """Ask how broad the tile is to be, or for a factor, and scale the pattern."""
+    recipe = None if session.draft.faults else session.draft.recipe
+    cell = recipe.tiling.cell() if recipe is not None and recipe.tile is not None else None
     with dialog("Scale the pattern") as made:
         text("Tile, placements and gaps grow together; shapes and counts stay.", "quiet", "p")
         factor = ui.number("Factor", value=1.5, min=0.001, max=1000, step=0.1).props("outlined autofocus")
         factor.classes("full")
+        if cell is not None:
+            width = ui.number("Width of the tile in mm").props("outlined").classes("full")
+            size = text("", "quiet small", "p")
+
+            def by_factor() -> None:
+                across, up = (each * float(factor.value or 1) for each in (cell.width, cell.height))
+                say(size, f"{cell.width:g} × {cell.height:g} mm become {across:.6g} × {up:.6g} mm")
+                width.set_value(float(f"{across:.6g}"))
+
+            width.on("change", lambda: factor.set_value(float(width.value or cell.width) / cell.width))
+            factor.on_value_change(by_factor)
+            by_factor()
 
         def apply() -> None:
             with told():

@@ -22,6 +22,12 @@ window.studio = (() => {
     .lines g[data-cloth] { display: none; }
     .off { display: none; }
     canvas { position: absolute; left: 0; top: 0; }
+    .words { position: absolute; left: ${RULER + 14}px; bottom: 14px; max-width: min(460px, calc(100% - ${RULER + 28}px)); margin: 0; display: none;
+             padding: 8px 12px; list-style: none; background: var(--panel); border: 1px solid var(--rule); border-left: 4px solid var(--fault);
+             border-radius: 8px; box-shadow: 0 4px 16px rgb(10 14 24 / 18%); color: var(--ink); font: 12px/1.4 system-ui, sans-serif; }
+    .words.on { display: block; }
+    .words li { display: flex; gap: 8px; padding: 2px 0; } .words li::before { content: attr(data-number); flex: none; min-width: 14px; color: var(--fault); font-weight: 600; }
+    .over .number { font: 600 11px system-ui, sans-serif; fill: #b3261e; stroke: #fff; stroke-width: 3px; paint-order: stroke; text-anchor: middle; }
     .alone { position: absolute; left: ${RULER + 14}px; bottom: 14px; width: 236px; padding: 8px; display: none; pointer-events: none;
              background: var(--panel); border: 1px solid var(--rule); border-radius: 8px; box-shadow: 0 8px 28px rgb(10 14 24 / 22%);
              color: var(--quiet); font: 12px system-ui, sans-serif; }
@@ -29,7 +35,7 @@ window.studio = (() => {
     .alone svg { display: block; width: 100%; height: 236px; border-radius: 4px; margin-bottom: 6px; }
   `;
   const token = { host: null, shown: 0, alone: 0 };
-  let shadow, stage, aside, art = null, over, rulerX, rulerY;
+  let shadow, stage, words, aside, art = null, over, rulerX, rulerY;
   let size = [1, 1], centre = [0.5, 0.5], scale = 1, fitted = true, lines = false, hidden = new Set();
   let guides = [], pins = [], showGuides = false, showPins = true, pending = false, screenMm = MM;
 
@@ -39,7 +45,9 @@ window.studio = (() => {
     shadow = host.shadowRoot || host.attachShadow({ mode: "open" });
     shadow.innerHTML = `<style>${STYLE}</style><canvas class="x"></canvas><canvas class="y"></canvas>
       <div class="stage" tabindex="0" role="img" aria-label="The pattern. Arrow keys move it, plus and minus zoom, 0 fits it."></div>
+      <ol class="words" role="status" aria-label="What the certificate finds wrong"></ol>
       <div class="alone" aria-hidden="true"></div>`;
+    words = shadow.querySelector(".words");
     aside = shadow.querySelector(".alone");
     stage = shadow.querySelector(".stage");
     [rulerX, rulerY] = shadow.querySelectorAll("canvas");
@@ -58,6 +66,7 @@ window.studio = (() => {
 
   // Bring a new picture in, and tell what is known of it in the line below.
   function show(text, head) {
+    if (head.part === "verdict") { verdict(head.verdict, head.passed); return setPins(head.pins); }
     const parsed = new DOMParser().parseFromString(text, "image/svg+xml").documentElement;
     if (parsed.nodeName !== "svg") return;
     if (head.part === "motif") return showAlone(parsed, head.name);
@@ -78,7 +87,7 @@ window.studio = (() => {
     const fresh = box[2] !== size[0] || box[3] !== size[1];
     size = [box[2], box[3]];
     guides = head.guides || [];
-    pins = [];
+    setPins(head.pins || []);
     for (const [name, words] of Object.entries(head.words)) say(`said-${name}`, words);
     if (head.verdict) verdict(head.verdict, head.passed);
     else if (!head.certified) verdict("", true);
@@ -111,6 +120,20 @@ window.studio = (() => {
   // Words of the line below are the display's own: the page's elements are not asked.
   function say(name, words) {
     for (const each of document.getElementsByClassName(name)) if (each.textContent !== words) each.textContent = words;
+  }
+
+  // Pointers are numbered in the picture; what each says stands below it.
+  const MOST_SAID = 5;
+  function setPins(found) {
+    pins = found;
+    const rows = pins.slice(0, MOST_SAID).map((each, at) => [at + 1, each.text]);
+    if (pins.length > MOST_SAID) rows.push(["", `and ${pins.length - MOST_SAID} more: each says what it is when pointed at`]);
+    words.replaceChildren(...rows.map(([number, text]) => {
+      const row = Object.assign(document.createElement("li"), { textContent: text });
+      row.dataset.number = number;
+      return row;
+    }));
+    draw();
   }
 
   function applyLayers() {
@@ -203,14 +226,17 @@ window.studio = (() => {
       for (const [key, value] of Object.entries(attributes)) node.setAttribute(key, value);
       if (text) node.append(Object.assign(document.createElementNS(NS, "title"), { textContent: text }));
       made.push(node);
+      return node;
     };
     for (const line of showGuides ? guides : []) {
       const points = line.map(([x, y]) => px(x, y).map((v) => v.toFixed(1)).join(" ")).join(" ");
       add("polyline", { points, fill: "none", stroke: "#fff", "stroke-width": 2.5, opacity: 0.55 });
       add("polyline", { points, fill: "none", stroke: "#c2185b", "stroke-width": 1.25, "stroke-dasharray": "6 4" });
     }
-    for (const pin of showPins ? pins : []) {
+    words.classList.toggle("on", showPins && pins.length > 0);
+    for (const [at, pin] of (showPins ? pins : []).entries()) {
       const [x, y] = px(pin.x, pin.y);
+      if (at < MOST_SAID) add("text", { class: "number", x, y: y - 14 }).textContent = at + 1;
       add("circle", { cx: x, cy: y, r: 9, fill: "none", stroke: "#fff", "stroke-width": 4 });
       add("circle", { class: "pin", cx: x, cy: y, r: 9, fill: "transparent", stroke: "#d32f2f", "stroke-width": 2 }, pin.text);
     }
@@ -306,12 +332,11 @@ window.studio = (() => {
   for (const name of ["focusin", "keydown", "keyup"]) document.addEventListener(name, nameSlider);
 
   return {
-    mount, show, letGo, verdict, fit, actual, zoom: (factor) => zoom(factor), choose, state: token,
+    mount, show, letGo, fit, actual, zoom: (factor) => zoom(factor), choose, state: token,
     lines: (on) => { lines = on; applyLayers(); },
     layer: (id, on) => { on ? hidden.delete(id) : hidden.add(id); applyLayers(); },
     guides: (on) => { showGuides = on; draw(); },
     pins: (on) => { showPins = on; draw(); },
-    setPins: (found) => { pins = found; draw(); },
     calibrate: (pxPerMm) => { screenMm = pxPerMm; localStorage.setItem("batik-px-per-mm", pxPerMm); draw(); },
     view: () => ({ scale, centre, size }),
   };

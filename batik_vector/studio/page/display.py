@@ -53,6 +53,11 @@ def outlook(vertices: int, seconds: float) -> str:
     return f" of about {_about(seconds)} s, about {_about(vertices):,} vertices"
 
 
+def took_words(seconds: float) -> str:
+    """Return how long something took, with no more figures than anybody reads."""
+    return f"{seconds * 1000:.0f} ms" if seconds < 1 else f"{seconds:.1f} s"
+
+
 def _about(value: float) -> int:
     """Return a number by its first digit, at least 1."""
     return max(int(float(f"{value:.1g}")), 1)
@@ -272,12 +277,13 @@ class Display:
             if self._slow:
                 background_tasks.create(self.session.images.warm_detail())
         facts = picture.facts
-        width, height = facts["cell_mm"]
+        # Of a cloth that has a size it is the cloth's, of all others the tile's.
+        width, height = facts["size_mm" if picture.view.kind == "yardage" else "cell_mm"]
         # Told by the picture's own way, for the page's elements would keep the browser busy.
         words = {
             "size": f"{width:g} × {height:g} mm",
             "counted": f"{facts.get('vertices', 0):,} vertices",
-            "seconds": f"{'sketched' if sketch else 'drawn'} in {picture.seconds * 1000:.0f} ms",
+            "seconds": f"{'sketched' if sketch else 'drawn'} in {took_words(picture.seconds)}",
         }
         certified = picture.draft is self._certified
         head = {"guides": self._guides(facts), "words": words, "certified": certified, "sketch": sketch}
@@ -355,21 +361,19 @@ class Display:
         await asyncio.sleep(CALM)
         if picture.draft is not self.session.draft or self.client.is_deleted:
             return
-        found = await self.session.images.ask(
-            picture.draft, View("tile", certify=True), lane="\0verdict", background=True
-        )
+        # Each tab waits for its own: what another one asks for must not drop it.
+        lane, view = f"\0verdict-{self.client.id}", View("tile", certify=True)
+        found = await self.session.images.ask(picture.draft, view, lane=lane, background=True)
         if found is None or not found.verdict or found.draft is not self.session.draft:
             return
         self._certified = picture.draft
         faults = found.verdict["faults"]
         passed = found.verdict["passed"]
-        words = "Seam certificate passed" if passed else f"{len(faults)} faults in the certificate"
-        # A browser that takes the picture only now would wipe out what was said of it before.
-        self.live.amend({"verdict": words, "passed": passed})
-        self._run(f"studio.verdict({json.dumps(words)}, {json.dumps(passed)})")
+        count = f"{len(faults)} fault{'s' * (len(faults) > 1)}"
+        words = "Seam certificate passed" if passed else f"{count} in the certificate"
         height = found.facts["cell_mm"][1]
         pins = [
             {"x": each["where_mm"][0], "y": height - each["where_mm"][1], "text": each["words"]}
             for each in (faults if self.view == "tile" else [])
         ]
-        self._run(f"studio.setPins({json.dumps(pins)})")
+        self.live.amend({"verdict": words, "passed": passed, "pins": pins})

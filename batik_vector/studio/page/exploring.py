@@ -9,24 +9,25 @@ from typing import TYPE_CHECKING
 from nicegui import background_tasks, ui
 
 from batik_vector.errors import BatikError
-from batik_vector.studio.asking import View
 from batik_vector.studio.changes import variations
 from batik_vector.studio.page.dialogs import dialog
-from batik_vector.studio.page.parts import group, say, telling, text, word_button
+from batik_vector.studio.page.parts import complain, group, say, telling, text, word_button
+from batik_vector.studio.page.trying import GLANCE, LIMIT, SMALL, TRIAL, lack_of
 from batik_vector.studio.parameters import Control, controls
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Awaitable, Callable, Iterator
+    from typing import Any
 
+    from batik_vector.studio.asking import View
     from batik_vector.studio.drafts import Draft
     from batik_vector.studio.page.session import Session
+    from batik_vector.studio.pictures import Picture
 
 ACROSS, DOWN = 4, 3
-COARSE = View("tile", tolerance=0.4)
-"""How small pictures are looked at."""
 RANDOM = "at random"
-SPARE = 4
-"""Variations made besides, for those that cannot be drawn."""
+LOOKED_AT = 5 * ACROSS * DOWN
+"""Variations looked at, at most, for a sheet of those that hold."""
 
 
 def explore(session: Session) -> None:
@@ -62,6 +63,7 @@ class Exploring:
         self.wrong = text("", "wrong", "p").props("role=alert")
         self.sheet = group("contact")
         self.seed = 0
+        self.lack = ""
         for each in (self.across, self.down):
             each.on_value_change(self._draw)
         self.reach.on("change", self._draw)
@@ -75,14 +77,9 @@ class Exploring:
         self.seed += 1
         self._draw()
 
-    def _drafts(self) -> Iterator[tuple[str, Draft]]:
-        """Yield the variations with what is said below them."""
-        path = str(self.across.value or RANDOM)
-        if path == RANDOM:
-            found = variations(self.draft, self.seed, float(self.reach.value or 0.5))
-            for draft in islice(found, ACROSS * DOWN + SPARE):
-                yield "", draft
-            return
+    def _in_rows(self) -> Iterator[tuple[str, Draft]]:
+        """Yield the variations over numbers with what is said below them."""
+        path = str(self.across.value)
         other = str(self.down.value or "")
         if not other or other == path:
             for value in _spread(self.numbers[path], ACROSS * DOWN, self.reach.value):
@@ -99,38 +96,90 @@ class Exploring:
         say(self.wrong, "")
         self.sheet.clear()
         with self.sheet:
-            cards = [Card(self._take) for _ in range(ACROSS * DOWN)]
-        background_tasks.create(self._fill(cards, self.round))
+            cards = [Card(number + 1, self._take) for number in range(ACROSS * DOWN)]
+        fill = self._fill_rows if self.across.value != RANDOM else self._fill_at_random
+        background_tasks.create(self._filled(fill(cards, self.round)))
 
-    async def _fill(self, cards: list[Card], mine: int) -> None:
-        """Draw one variation after the other; at random, what leaves nothing to draw is passed over."""
+    async def _filled(self, filling: Awaitable[None]) -> None:
         try:
-            found = await asyncio.to_thread(lambda: list(self._drafts()))
+            await filling
         except BatikError as error:
-            found = []
             say(self.wrong, str(error))
-        passed = self.across.value == RANDOM
-        used = 0
-        for number, (words, draft) in enumerate(found):
-            if used == len(cards) or mine != self.round or self.client.is_deleted or self.sheet.is_deleted:
-                return
-            cards[used].expect()
-            picture = await self.session.images.ask(
-                draft, COARSE, lane=f"\0sheet-{self.client.id}-{number}", background=True, limit=15
-            )
-            if mine != self.round or self.sheet.is_deleted or picture is None:
+            self.sheet.clear()
+
+    async def _fill_rows(self, cards: list[Card], mine: int) -> None:
+        """Draw one variation after the other; of what leaves nothing to draw the place in the rows stays."""
+        found = await asyncio.to_thread(lambda: list(self._in_rows()))
+        for card, (words, draft) in zip(cards, found, strict=False):
+            card.expect()
+            picture = await self._look(draft, SMALL, mine)
+            if picture is None:
                 return
             if picture.svg:
-                said = words or f"Variation {used + 1}"
-                cards[used].show(draft, said, self.session.keep(picture.svg))
-            elif not passed:
-                # Its place in the rows stays.
-                cards[used].miss(f"{words}: nothing to draw")
-            used += bool(picture.svg) or not passed
-        for left in cards[used:]:
+                card.show(draft, words, self.session.keep(picture.svg), held=True)
+            else:
+                card.miss(f"{words}: nothing to draw")
+        for left in cards[len(found) :]:
             left.box.delete()
 
-    def _take(self, draft: Draft) -> None:
+    async def _fill_at_random(self, cards: list[Card], mine: int) -> None:
+        """Show at once what looks as if it held; then try each, and draw others where one does not."""
+        drafts = islice(variations(self.draft, self.seed, float(self.reach.value or 0.5)), LOOKED_AT)
+        shown = [card for card in cards if await self._show_next(drafts, card, mine)]
+        for card in shown:
+            while not await self._holds(card, mine) and await self._show_next(drafts, card, mine):
+                pass
+        kept = sum(card.held for card in cards)
+        if kept < len(cards) and not self._gone(mine):
+            words = f"Of {LOOKED_AT} variations {kept} hold on cloth, of the others the last lacks: "
+            say(self.wrong, f"{words}{self.lack}. Nearer to here more hold.")
+
+    async def _show_next(self, drafts: Iterator[Draft], card: Card, mine: int) -> bool:
+        """Show the next variation that looks well; return whether there is one, and anybody to look at it."""
+        card.expect()
+        while (draft := await asyncio.to_thread(next, drafts, None)) is not None:
+            picture = await self._look(draft, GLANCE, mine)
+            if picture is None:
+                return False
+            if not (lack := lack_of(picture)):
+                card.show(draft, f"Variation {card.number}", self.session.keep(picture.svg))
+                return True
+            self.lack = lack
+        if not self._gone(mine):
+            card.box.delete()
+        return False
+
+    async def _holds(self, card: Card, mine: int) -> bool:
+        """Try what a card shows; what nobody looks at any more need not be tried."""
+        if card.draft is None or card.held or (picture := await self._look(card.draft, TRIAL, mine)) is None:
+            return True
+        lack = lack_of(picture)
+        self.lack, card.held = lack or self.lack, not lack
+        return card.held
+
+    async def _look(self, draft: Draft, view: View, mine: int) -> Picture | None:
+        """Return the picture of a variation, or None where nobody looks at the sheet any more."""
+        if self._gone(mine):
+            return None
+        lane = f"\0sheet-{self.client.id}"
+        found = await self.session.images.ask(draft, view, lane=lane, background=True, limit=LIMIT)
+        return None if self._gone(mine) else found
+
+    def _gone(self, mine: int) -> bool:
+        return mine != self.round or self.client.is_deleted or self.sheet.is_deleted
+
+    async def _take(self, card: Card) -> None:
+        """Go on from a variation; one that was not tried yet is tried first."""
+        if (draft := card.draft) is None:
+            return
+        if not card.held:
+            picture = await self.session.images.ask(draft, TRIAL, lane="\0variation", limit=LIMIT)
+            if picture is None:
+                return
+            if lack := lack_of(picture):
+                # Another one will stand in its place once its turn comes.
+                complain(f"This one does not hold on cloth: {lack}")
+                return
         self.session.alter("variation taken", lambda _: draft)
         self.made.close()
 
@@ -138,22 +187,29 @@ class Exploring:
 class Card:
     """A place of the sheet: empty until its variation is drawn."""
 
-    def __init__(self, take: Callable[[Draft], None]) -> None:
-        self._take = take
+    def __init__(self, number: int, take: Callable[[Card], Any]) -> None:
+        self.number = number
+        self.draft: Draft | None = None
+        self.held = False
+        """Whether it may be gone on from without a trial."""
         self.box = ui.element("button").classes("pattern").props("type=button disabled")
         with self.box:
             self._picture = ui.element("img").props('alt=""')
             self._words = text("", "name")
+        self.box.on("click", telling(lambda: take(self)))
 
     def expect(self) -> None:
         """Show that it is being drawn."""
-        self._picture.classes("drawing")
+        self.draft = None
+        self.box.props("disabled")
+        self._picture.classes("drawing").props(remove="src")
 
-    def show(self, draft: Draft, words: str, number: int) -> None:
+    def show(self, draft: Draft, words: str, number: int, *, held: bool = False) -> None:
         """Show a variation, from which one may go on."""
+        self.draft, self.held = draft, held
         say(self._words, words)
         self._picture.classes(remove="drawing").props(f'src="/studio/picture/{number}"')
-        self.box.props(remove="disabled").on("click", telling(lambda: self._take(draft)))
+        self.box.props(remove="disabled")
 
     def miss(self, words: str) -> None:
         """Say why there is none."""

@@ -58,7 +58,7 @@ class Exporting:
         with group("line-of-fields"):
             machines = {NONE: "no machine", **{name: name for name in MACHINES}}
             self.machine = ui.select(machines, value=NONE, label="Machine").props("outlined dense")
-            self.process = ui.input("Process").props("outlined dense")
+            self.process = ui.input("Process").props(f'outlined dense stack-label placeholder="{NONE}"')
             offering(self.process, "Choose a process", list(PROCESSES), self.process.set_value)
         text(
             "Files are true to size. A process may have options behind its name, as in: cut kerf=0.15mm. "

@@ -128,7 +128,7 @@ class Row:
                 made.props(f'suffix="{control.unit}"')
             if control.kind == "list":
                 made.props('placeholder="none" type=textarea autogrow')
-            if control.kind == "text" and control.default is None:
+            if control.kind == "text" and not control.default:
                 made.props('placeholder="none"')
             if control.kind == "text" and control.choices:
                 offering(made, f"Choose {self.words}", control.choices, self._set)

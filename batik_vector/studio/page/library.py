@@ -177,10 +177,12 @@ class VersionsPanel:
         with group("versioned"):
             said = f"{reference}, saved {when}"
             open_it = telling(lambda: self.session.open_pattern(reference))
-            label = f"Version {version.number}{' (newest)' if newest else ''}"
+            label = f"Version {version.number}"
             self._cards[reference] = card(version.name, label, said, open_it, version.number)
             text(when, "quiet small")
-            if not newest:
+            if newest:
+                text("the newest", "quiet small")
+            else:
                 word_button("Restore", telling(lambda: self._restore(reference)), icon="history")
 
     async def _restore(self, reference: str) -> None:

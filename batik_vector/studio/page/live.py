@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 PATIENCE = 2.0
 """Seconds to wait for a browser to show a picture before it is sent the next one: a hidden tab shows none."""
+VERDICT = "verdict"
+"""The part that tells what was found out of the picture."""
 LONGEST = 400
 """Characters of what a page says here."""
 
@@ -47,15 +49,22 @@ class Live:
             svg: the picture.
             part: "motif" for that of a motif alone, nothing for the whole.
         """
+        if not part:
+            # What was found out of the one before is no news of this one.
+            self._due.pop(VERDICT, None)
         self._parts[part] = {**head, "part": part}, svg
         self._due[part] = None
         self._fresh.set()
 
     def amend(self, more: Mapping[str, Any]) -> None:
-        """Add to what is known of the whole picture, for browsers that have not taken it yet."""
+        """Add to what is known of the whole picture, for browsers that have it and for those to come.
+
+        It goes by the same way as the picture, which by another one it might overtake.
+        """
         if "" in self._parts:
             head, svg = self._parts[""]
             self._parts[""] = {**head, **more}, svg
+            self.put(more, b"", VERDICT)
 
     def _frame(self, part: str) -> bytes:
         head, svg = self._parts[part]

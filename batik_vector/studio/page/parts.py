@@ -6,6 +6,7 @@ import asyncio
 import inspect
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from functools import partial
 from typing import Any
 
 from nicegui import ui
@@ -48,14 +49,19 @@ def offering(field: ui.input, label: str, words: Sequence[str], take: Callable[[
         made = ui.button(icon="arrow_drop_down", color=None).props(f'flat dense aria-label="{label}"')
         with made.classes("plain offered"), ui.menu().props("auto-close"):
             for each in words:
-                with ui.menu_item(on_click=lambda each=each: take(each)).props("dense"):
-                    with ui.item_section():
-                        text(each)
-                    if each in PALETTES:
-                        with ui.item_section().props("side"), group("dots"):
-                            for colour in PALETTES[each].colours:
-                                group("dot").style(f"background: {colour}")
+                menu_row(each, partial(take, each))
     return made
+
+
+def menu_row(word: str, action: Callable[..., Any]) -> None:
+    """Draw a row of a menu; a name of a palette stands beside its colours."""
+    with ui.menu_item(on_click=action).props("dense"):
+        with ui.item_section():
+            text(word)
+        if word in PALETTES:
+            with ui.item_section().props("side"), group("dots"):
+                for colour in PALETTES[word].colours:
+                    group("dot").style(f"background: {colour}")
 
 
 def main_button(label: str, action: Callable[..., Any]) -> ui.button:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import logging
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
@@ -11,8 +10,11 @@ from typing import TYPE_CHECKING, Any
 from batik_vector.errors import BatikError, Fault
 from batik_vector.studio import changes, drops
 from batik_vector.studio.aside import Aside
+from batik_vector.studio.changes import set_by_hand
 from batik_vector.studio.drafts import Draft, parsed
 from batik_vector.studio.journal import Desk
+from batik_vector.studio.page.listeners import added, call
+from batik_vector.studio.page.trying import held
 from batik_vector.studio.pictures import Picture, Pictures
 from batik_vector.studio.saving import Saving, fingerprint, save
 from batik_vector.studio.shelf import Shelf
@@ -111,7 +113,8 @@ class Session:
         """Where it stands, in words."""
         if not self.reference:
             return "not in the library yet"
-        return self.reference if self.is_saved else f"{self.reference}, changed"
+        name = self.pattern.replace("/", " ", 1) if self.is_included else self.reference
+        return name if self.is_saved else f"{name}, changed"
 
     def _noted(self) -> tuple[str, str]:
         # By what it is called, for steps back may lead to another pattern.
@@ -128,14 +131,14 @@ class Session:
 
     def listen(self, callback: Callable[[], None]) -> Callable[[], None]:
         """Call back whenever what is open changes; return what ends that."""
-        return _added(self._listeners, callback)
+        return added(self._listeners, callback)
 
     def on_library(self, callback: Callable[[], None]) -> Callable[[], None]:
         """Call back whenever something was saved; return what ends that."""
-        return _added(self._library_listeners, callback)
+        return added(self._library_listeners, callback)
 
     def _tell(self) -> None:
-        _call(self._listeners)
+        call(self._listeners)
 
     # Changes.
 
@@ -163,7 +166,7 @@ class Session:
             BatikError: where it cannot be set; nothing is changed then.
         """
         label = f"{path.rpartition('.')[2]} {'reset' if value is None else 'set'}"
-        self.change(self.draft.with_value(path, value), label, merge)
+        self.change(set_by_hand(self.draft, path, value), label, merge)
 
     def slide(self, path: str, value: float, let_go: bool) -> None:
         """Set a value as a slider moves: all values until shortly after it is let go are one step.
@@ -241,10 +244,13 @@ class Session:
         self.change(change(self.draft), label)
         self.desk.settle()
 
-    def vary(self) -> None:
-        """Go on with a random variation: another one each time, what is locked stays."""
+    async def vary(self) -> None:
+        """Go on with a random variation that holds: another one each time, what is locked stays."""
         self._seed += 1
-        self.alter(f"variation {self._seed}", lambda draft: changes.varied(draft, self._seed))
+        begun, found = self.draft, await held(self.images, self.draft, self._seed)
+        # Who has gone on meanwhile keeps what they have.
+        if found is not None and self.draft is begun:
+            self.alter("varied", lambda _: found)
 
     def copy_of(self, path: str) -> None:
         """Put a member of a list, a motif or an ink in twice."""
@@ -326,7 +332,7 @@ class Session:
         saved, version, fresh = await asyncio.to_thread(save, draft, wish)
         self._note(draft.stem, f"{saved}@{version}", draft.whole)
         self._tell()
-        _call(self._library_listeners)
+        call(self._library_listeners)
         return f"Saved as {saved}@{version}" if fresh else f"{saved}@{version} says the same already"
 
     def entitle(self, name: str) -> None:
@@ -341,7 +347,7 @@ class Session:
         """Make an old version the newest, and open it; return in words what came of it."""
         saved = await self.shelf.restore(reference)
         await self.open_pattern(f"{saved.name}@{saved.number}")
-        _call(self._library_listeners)
+        call(self._library_listeners)
         now = f"{saved.name}@{saved.number}"
         return f"{reference} is {now} now" if saved.fresh else f"{reference} is the newest"
 
@@ -375,21 +381,3 @@ class Session:
         self.images.close()
         self.end_asides()
         self.desk.close()
-
-
-def _added(listeners: list[Callable[[], None]], callback: Callable[[], None]) -> Callable[[], None]:
-    listeners.append(callback)
-
-    def forget() -> None:
-        if callback in listeners:
-            listeners.remove(callback)
-
-    return forget
-
-
-def _call(listeners: list[Callable[[], None]]) -> None:
-    for each in list(listeners):
-        try:
-            each()
-        except Exception:  # a tab that has gone must not keep the others from being told
-            logging.getLogger(__name__).exception("a tab could not be told")

@@ -48,14 +48,14 @@ class Scattered(Layout):
     ] = None
     turn: Annotated[
         tuple[Annotated[float, Between(-360, 360)], Annotated[float, Between(-360, 360)]],
-        Says("degrees between which each mark is turned"),
+        Says("degrees between which each mark is turned", called="turn from, turn to"),
     ] = (0.0, 360.0)
     turns: Annotated[
         tuple[Annotated[float, Between(-360, 360)], ...], Says("the only turns there are, instead of turn")
     ] = ()
     size: Annotated[
         tuple[Annotated[float, Between(0.01, 100)], Annotated[float, Between(0.01, 100)]],
-        Says("sizes between which each mark is scaled by chance"),
+        Says("sizes between which each mark is scaled by chance", called="least size, largest size"),
     ] = (1.0, 1.0)
     flip: Annotated[bool, Says("change left and right of one mark in two, by chance")] = False
     weights: Annotated[
@@ -139,7 +139,7 @@ class Stripes(Layout):
     ] = None
     winding: Annotated[
         tuple[Annotated[int, Between(-60, 60)], Annotated[int, Between(-60, 60)]],
-        Says("how often a line goes round the repeat across and up before it closes"),
+        Says("how often a line goes round the repeat across and up before it closes", called="across, up"),
     ] = (1, 0)
     angle: Annotated[
         Annotated[float, Between(-180, 180)] | None,

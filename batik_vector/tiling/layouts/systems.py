@@ -34,7 +34,7 @@ class Julian(Layout):
         float,
         Between(-64, 64),
         Useful(0.2, 6),
-        Says("how they bend; equal to power they keep their shape", "P2"),
+        Says("how they bend; equal to power they keep their shape", "P2", "bending"),
     ] = 4.0
     level: Annotated[int, Between(0, 100_000), Says("how often the spreading is repeated")] = 1
     shift: Annotated[Pair, Says("move before each spreading", "dx, dy")] = (4 / 3, 4 / 3)

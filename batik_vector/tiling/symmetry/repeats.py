@@ -136,7 +136,10 @@ class TileSpec:
 
     size: Annotated[
         tuple[Annotated[Length, Between(0.1, 20_000)], Annotated[Length, Between(0.1, 20_000)]],
-        Says("width and height of the unit; a drop p/q rounds the side it divides to q µm"),
+        Says(
+            "width and height of the unit; a drop p/q rounds the side it divides to q µm",
+            called="width, height",
+        ),
     ]
     repeat: Annotated[
         str, Text(_checked_repeat, REPEATS, REPEAT_PATTERN), Says(f"how units stand: {REPEATS}")
