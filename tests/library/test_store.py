@@ -151,7 +151,7 @@ def test_a_picture_is_drawn_when_it_is_asked_for_and_kept(library: Library) -> N
     assert details.svg.startswith(b"<?xml")
     assert details.png.startswith(b"\x89PNG")
     assert library.about("sample/group-pg") == details
-    assert details.features["inks"] == 2
+    assert details.features["inks"] == 3
 
 
 def test_many_are_saved_together_or_none(library: Library) -> None:
