@@ -42,7 +42,7 @@ def sample(name: str) -> Certificate:
         ("kawung", "p4m"),
         ("mega-mendung", "p1"),
         ("tumbling-leaves", "p1"),
-        ("jlamprang", "p4m"),
+        ("group-p4g", "p4g"),
         ("machine-stencil", "p4m"),
         ("isen-sampler", "p1"),
     ],

@@ -166,7 +166,10 @@ def _spouts(areas: Geometries, waver: Waver, step: float, radius: float, cell: C
     ways = polygonal(shapely.clip_by_rect(np.asarray(ways, dtype=object), 0, 0, cell.columns, cell.rows))
     if not len(ways):
         return ways
-    moved = polygonal(shapely.make_valid(_moved(of_polygons(oriented(ways)), waver, step)))
+    moved = shapely.make_valid(
+        _moved(of_polygons(oriented(ways)), waver, step), method="structure", keep_collapsed=False
+    )
+    moved = polygonal(moved)
     # Chords about round tips come nearer than their corners, and what is left out of a way may be as near.
     most = (radius + LESS + 0.5) / ROUNDED
     broad = shapely.buffer(shapely.simplify(moved, LESS), most, quad_segs=ROUND)
