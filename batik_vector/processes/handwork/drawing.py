@@ -23,7 +23,7 @@ from batik_vector.machines import Machine
 from batik_vector.processes.bodies import repeated_into
 from batik_vector.processes.handwork.corners import cornered, densified
 from batik_vector.processes.handwork.options import HandProcess
-from batik_vector.processes.handwork.seams import BESIDE, clear_of_seams
+from batik_vector.processes.handwork.seams import BESIDE, clear_of_seams, held_to_seams
 from batik_vector.processes.handwork.strokes import strokes
 from batik_vector.processes.handwork.tiles import tile_of, with_areas
 from batik_vector.processes.handwork.waver import Wave, Waver
@@ -66,12 +66,12 @@ def apply(page: Page, spec: HandProcess, machine: Machine) -> Artwork:
     step = _step(spec, tile.tolerance)
     _refuse_corners(tile, spec, step)
     filled = cornered([of_polygons(each.areas, MM) for each in tile.layers], tile.cell)
+    drawn = [_bodies(areas, waver, step, spec, tile.cell) for areas in filled]
+    # What one mark draws to the tile's edge, all do that have a corner there.
+    held = held_to_seams(np.concatenate(drawn), tile.cell, step)
     made = []
-    for layer, areas in zip(tile.layers, filled, strict=True):
-        marks = [_moved(areas, waver, step)]
-        if spec.least is not None:
-            marks.append(_spouts(to_polygons(areas), waver, step, spec.least * STEPS_PER_MM / 2, tile.cell))
-        marks = [clear_of_seams(each, tile.cell, step) for each in marks]
+    for layer, bodies in zip(tile.layers, drawn, strict=True):
+        marks = [clear_of_seams(bodies, tile.cell, held)]
         lines = of_polylines(layer.lines, MM)
         if len(lines):
             marks.append(_strokes(lines, layer.ink.width, waver, spec, step))
@@ -134,16 +134,26 @@ def _moved(areas: Outlines, waver: Waver, step: float) -> Geometries:
     return to_polygons(replace(fine, points=waver.moved(fine.points)))
 
 
+def _bodies(areas: Outlines, waver: Waver, step: float, spec: HandProcess, cell: Cell) -> Geometries:
+    """Return areas as a hand draws them, and what the spout covers in them."""
+    moved = _moved(areas, waver, step)
+    if spec.least is None:
+        return moved
+    return np.concatenate(
+        [moved, _spouts(to_polygons(areas), waver, step, spec.least * STEPS_PER_MM / 2, cell)]
+    )
+
+
 def _strokes(lines: Outlines, width: float, waver: Waver, spec: HandProcess, step: float) -> Geometries:
     """Return lines as a hand draws them, as broad as asked where they are drawn to the tile's edge, too.
 
     They are united: where lines lie close together, their many bends and ends cross one another very often.
     """
     made = strokes(lines, width, waver, spec, step)
-    clear = clear_of_seams(made, waver.cell, step)
+    clear = clear_of_seams(made, waver.cell, held_to_seams(made, waver.cell, step))
     if clear is not made:
         made = strokes(lines, width, waver, spec, step, 2.0 * BESIDE)
-        clear = clear_of_seams(made, waver.cell, step)
+        clear = clear_of_seams(made, waver.cell, held_to_seams(made, waver.cell, step))
     # What was pushed clear of the edge may have been pushed flat, or over itself.
     good = np.asarray(shapely.is_valid(clear), bool)
     clear = np.concatenate([clear[good], polygonal(shapely.make_valid(clear[~good]))])

@@ -165,7 +165,7 @@ def test_nothing_runs_a_hair_beside_the_seam_nor_bends_on_it(number: int) -> Non
     assert certify(done).faults == ()
 
 
-# Of these thousand the first 123 were run; four were faulted, and are mended.
+# Of these thousand 472 were run with other ways of drawing and breadths; what was faulted is mended.
 NUMBERS = range(3, 6003, 6)
 
 
@@ -183,6 +183,12 @@ def test_any_tile_keeps_its_seam(number: int) -> None:
         reach=(4.0, 9.0, 20.0, 2.5)[turn // 4 % 4],
         least=least,
     )
+    assert certify(done).faults == ()
+
+
+def test_what_one_mark_draws_to_the_edge_all_do_that_share_the_corner() -> None:
+    """Else a slit of 1.5 µm ran along the edge, where one mark had a corner and the other an edge."""
+    done = drawn(random_tile(3135), strength=0.75, seed=3135, reach=20.0)
     assert certify(done).faults == ()
 
 
