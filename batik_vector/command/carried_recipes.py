@@ -67,7 +67,7 @@ class Promise:
 
 
 def promised(recipe: Recipe, tile: Artwork, reading: Reading) -> tuple[Promise, bool]:
-    """Return what a recipe promises of a page that was read, and whether that is a tile.
+    """Return what a recipe promises of a page that was read, and whether the page can be measured as a tile.
 
     Args:
         recipe: in the file.
@@ -79,7 +79,8 @@ def promised(recipe: Recipe, tile: Artwork, reading: Reading) -> tuple[Promise, 
         if np.allclose(page, reading.page, rtol=0, atol=SIZE_MM):
             field = _field(tile, across, up)
             return Promise(recipe, field, _repeat(field.cell)), True
-    return _marked(recipe, tile, reading) or _broken(recipe, tile, reading), False
+    marked = _marked(recipe, tile, reading)
+    return (marked, False) if marked else (_broken(recipe, tile, reading), True)
 
 
 def promised_prepared(

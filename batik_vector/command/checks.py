@@ -182,7 +182,6 @@ def _check_drawing(source: str, wishes: Wishes, tell: Tell) -> Found:
     reading, promise = _as_promised(source, reading, promise)
     if promise.broken and recipe.yardage is not None:
         raise _fault(source, "shows the cloth, and not the tile that fills it: check its recipe instead")
-    kept = kept or bool(promise.broken) or bool(promise.artwork.bleed)
     if not kept:
         notes.append("shows the tile within a printer's marks: the tile that it was made of was measured")
     certificate = _certified(source, reading.artwork if kept else tile, wishes, asked_group(recipe))

@@ -12,26 +12,19 @@ import sys
 from functools import partial
 
 import shapely
-import vsketch
 
 from benchmarks.disc import LINES, MARGIN, SPACING, WIDTH, region
 from benchmarks.peers.drawn import often, tell
+from benchmarks.peers.vsketch_svg import page
 
+SIDE = 320.0
 WARM = 100
 """Dots of the disc that warms up."""
 
 
-def sketch() -> vsketch.Vsketch:
-    """Return an empty page in mm."""
-    found = vsketch.Vsketch()
-    found.size("320mm", "320mm", center=False)
-    found.scale("mm")
-    return found
-
-
 def dots(shape: shapely.Polygon) -> int:
     """Draw a circle wherever a place of the lattice lies within."""
-    page, inner = sketch(), shape.buffer(-MARGIN - WIDTH / 2)
+    sheet, inner = page(SIDE, SIDE), shape.buffer(-MARGIN - WIDTH / 2)
     shapely.prepare(inner)
     x0, y0, x1, y1 = inner.bounds
     pitch, count = SPACING * math.sqrt(0.75), 0
@@ -40,20 +33,20 @@ def dots(shape: shapely.Polygon) -> int:
         for step in range(math.ceil((x0 - shift) / SPACING), math.floor((x1 - shift) / SPACING) + 1):
             x, y = shift + step * SPACING, row * pitch
             if inner.contains(shapely.Point(x, y)):
-                page.circle(x, y, radius=WIDTH / 2)
+                sheet.circle(x, y, radius=WIDTH / 2)
                 count += 1
     return count
 
 
 def lines(shape: shapely.Polygon) -> int:
     """Draw what of each parallel line lies within, as a stroke with a body."""
-    page, inner = sketch(), shape.buffer(-MARGIN - LINES / 4)
+    sheet, inner = page(SIDE, SIDE), shape.buffer(-MARGIN - LINES / 4)
     x0, y0, x1, y1 = inner.bounds
     count = 0
     for row in range(math.ceil(y0 / LINES), math.floor(y1 / LINES) + 1):
         cut = inner.intersection(shapely.LineString([(x0 - 1, row * LINES), (x1 + 1, row * LINES)]))
         for part in shapely.get_parts(cut):
-            page.geometry(part.buffer(LINES / 4, quad_segs=3))
+            sheet.geometry(part.buffer(LINES / 4, quad_segs=3))
             count += 1
     return count
 

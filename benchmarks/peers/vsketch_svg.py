@@ -7,11 +7,17 @@ import vsketch
 from benchmarks.peers.drawn import Drawing, main
 
 
+def page(width: float, height: float) -> vsketch.Vsketch:
+    """Return an empty page of so many mm, drawn on in mm."""
+    sketch = vsketch.Vsketch()
+    sketch.size(f"{width}mm", f"{height}mm", center=False)
+    sketch.scale("mm")
+    return sketch
+
+
 def prepare(drawing: Drawing) -> vsketch.Vsketch:
     """Return the sketch."""
-    sketch = vsketch.Vsketch()
-    sketch.size(f"{drawing.width}mm", f"{drawing.height}mm", center=False)
-    sketch.scale("mm")
+    sketch = page(drawing.width, drawing.height)
     for ring in drawing.points:
         sketch.polygon(ring, close=True)
     return sketch

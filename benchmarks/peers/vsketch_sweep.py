@@ -13,9 +13,9 @@ import sys
 from pathlib import Path
 
 import numpy as np
-import vsketch
 
 from benchmarks.peers.flower import four_square
+from benchmarks.peers.vsketch_svg import page
 
 SIDE = 280.0
 
@@ -24,9 +24,7 @@ def main(count: int, folder: Path) -> None:
     """Draw and save all sketches."""
     folder.mkdir(parents=True, exist_ok=True)
     for number, pistil in enumerate(np.linspace(0.55, 0.85, count)):
-        sketch = vsketch.Vsketch()
-        sketch.size(f"{SIDE}mm", f"{SIDE}mm", center=False)
-        sketch.scale("mm")
+        sketch = page(SIDE, SIDE)
         for curve in four_square(float(pistil), SIDE):
             sketch.polygon(curve, close=True)
         sketch.save(str(folder / f"{number}.svg"))

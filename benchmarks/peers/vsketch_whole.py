@@ -17,9 +17,10 @@ from pathlib import Path
 
 import numpy as np
 import shapely
-import vsketch
 from numpy.typing import NDArray
 from shapely import affinity
+
+from benchmarks.peers.vsketch_svg import page
 
 SIDE, SCALE, LINE = 320.0, 60.0, 1.4
 PISTIL = 0.8
@@ -139,9 +140,7 @@ def main(count: int, folder: Path) -> None:
     """Draw and save all sketches."""
     folder.mkdir(parents=True, exist_ok=True)
     for number, pistil in enumerate(np.linspace(0.55, 0.85, count)):
-        sketch = vsketch.Vsketch()
-        sketch.size(f"{SIDE}mm", f"{SIDE}mm", center=False)
-        sketch.scale("mm")
+        sketch = page(SIDE, SIDE)
         for layer, area in enumerate(tile(float(pistil)).values(), 1):
             sketch.stroke(layer)
             sketch.geometry(area)
