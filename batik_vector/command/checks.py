@@ -280,7 +280,7 @@ def _drawing_found(
     broken = list(promise.broken) if promise else []
     apart = differences(artwork, promise.artwork) if promise and not broken else []
     if apart and not itself:
-        broken.append("what it draws is not what its recipe makes, and only the tile of the recipe was measured")
+        broken.append("what it draws is not what its recipe makes, and only the recipe's tile was measured")
     # The normal form and equal bits on the seam are for what this program compiles.
     facts = {**described(artwork), "violations": [], "seam": []}
     for told, layer in zip(facts["layers"], artwork.layers, strict=True):
