@@ -185,13 +185,12 @@ def _connected(path: Path, there: bool, writable: bool) -> sqlite3.Connection:
         left = path.with_name(f"{path.name}-wal")
         mode = "ro" if left.exists() and left.stat().st_size else "ro&immutable=1"
     with told(path):
-        connection = sqlite3.connect(f"{uri}?mode={mode}", timeout=PATIENCE, uri=True, isolation_level=None)
-        # Not all of a file need be in memory, but what a search looks through may.
-        connection.execute("PRAGMA cache_size = -65536")
-    return connection
+        return sqlite3.connect(f"{uri}?mode={mode}", timeout=PATIENCE, uri=True, isolation_level=None)
 
 
 def _made_ready(connection: sqlite3.Connection, path: Path, writable: bool) -> None:
+    # Not all of a file need be in memory, but what a search looks through may.
+    connection.execute("PRAGMA cache_size = -65536")
     known = _version(connection, path)
     if known > SCHEMA:
         raise LibraryError(

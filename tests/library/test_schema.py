@@ -232,13 +232,15 @@ def test_an_sqlite_without_an_index_of_words_is_told(tmp_path: Path) -> None:
 def test_a_library_that_another_process_is_making_is_not_taken_for_a_foreign_one(tmp_path: Path) -> None:
     """What tells them apart is read at one moment: between mark and tables the other could finish."""
     path = tmp_path / "my.library"
-    mine = sqlite3.connect(path, isolation_level=None)
-    other = sqlite3.connect(path, timeout=0, isolation_level=None)
+    with (
+        contextlib.closing(sqlite3.connect(path, isolation_level=None)) as mine,
+        contextlib.closing(sqlite3.connect(path, timeout=0, isolation_level=None)) as other,
+    ):
 
-    def meanwhile(statement: str) -> None:
-        if "user_version" in statement:
-            with contextlib.suppress(sqlite3.OperationalError):
-                other.execute("CREATE TABLE recipe (name TEXT)")
+        def meanwhile(statement: str) -> None:
+            if "user_version" in statement:
+                with contextlib.suppress(sqlite3.OperationalError):
+                    other.execute("CREATE TABLE recipe (name TEXT)")
 
-    mine.set_trace_callback(meanwhile)
-    assert schema._version(mine, path) == 0
+        mine.set_trace_callback(meanwhile)
+        assert schema._version(mine, path) == 0
