@@ -16,6 +16,7 @@ from batik_vector.geometry.fills.insets import whole
 from batik_vector.geometry.fills.periodic import Group, Period, closing
 from batik_vector.geometry.fills.symmetric import settled_marks, spread
 from batik_vector.geometry.maps.affine import Affine, unit_turn
+from batik_vector.geometry.nearness import on_lines, pairs_within
 from batik_vector.geometry.regions import oriented, polygonal
 from batik_vector.geometry.sampling import Array
 from batik_vector.recipe.fills import Fill, Room
@@ -189,10 +190,7 @@ def _keep(group: Group, free: Geometries, period: Period, tolerance: float) -> b
     if not len(points):
         return True
     images = np.concatenate([period.home(each.at(points)) for each in group.operations[1:]])
-    near, _ = shapely.STRtree(outlines).query(
-        shapely.points(images), predicate="dwithin", distance=max(LEAST_OFF, 4 * tolerance)
-    )
-    return len(np.unique(near)) == len(images)
+    return bool(on_lines(images, outlines, max(LEAST_OFF, 4 * tolerance)).all())
 
 
 def _beyond(region: shapely.Polygon, lattice: Array) -> float:
@@ -238,7 +236,7 @@ def _imaged(marks: Geometries, fill: Fill, orbit: Orbit, period: Period, taken: 
     if not _stamped(fill):
         marks = marks[settled_marks(marks, fill.bare, period)]
     images, owner = spread(marks, period)
-    near, _ = shapely.STRtree(taken).query(images, predicate="dwithin", distance=fill.margin)
+    near, _ = pairs_within(images, taken, fill.margin)
     stays = np.ones(len(marks), bool)
     stays[owner[near]] = False
     return images[stays[owner]]

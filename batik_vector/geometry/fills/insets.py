@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from batik_vector.geometry.fills.periodic import ASIDE, Period
 from batik_vector.geometry.fills.symmetric import pieces
+from batik_vector.geometry.nearness import nearer
 from batik_vector.geometry.regions import oriented
 from batik_vector.geometry.sampling import Array, Geometries, Indices
 
@@ -58,7 +59,8 @@ def inset(parts: Parts, reach: float) -> Parts:
     there = ~shapely.is_empty(shapes)
     shapes, of = oriented(shapes[there]), of[there]
     # Far inwards GEOS leaves crumbs beside the edge: none of them is within.
-    far = shapely.distance(shapes, shapely.boundary(parts.shapes[of])) >= reach
+    edges = np.asarray(shapely.boundary(parts.shapes), dtype=object)
+    far = ~nearer(edges[of], shapes, reach)
     return Parts(shapes[far], parts.region[of[far]])
 
 

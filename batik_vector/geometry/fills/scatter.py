@@ -10,7 +10,8 @@ from batik_vector.geometry.fills.insets import Parts
 from batik_vector.geometry.fills.periodic import ASIDE, Period
 from batik_vector.geometry.fills.symmetric import settled_places
 from batik_vector.geometry.fills.thinning import thinned
-from batik_vector.geometry.sampling import Array, Indices
+from batik_vector.geometry.nearness import held
+from batik_vector.geometry.sampling import Array, Geometries, Indices
 
 ROUNDS, TRIES = 6, 2.0
 """How often places are tried, and how many for each square of the distance."""
@@ -49,7 +50,6 @@ def scattered(
 def _scattered_round(parts: Parts, spacing: float, seed: int, period: Period) -> tuple[Array, Indices]:
     """Return places within parts and the window of a period, no two nearer than the spacing over its seam."""
     rng = np.random.default_rng(seed)
-    tree = shapely.STRtree(parts.shapes)
     points, part = np.empty((0, 2)), np.empty(0, np.intp)
     count = int(np.ceil(TRIES * np.prod(period.window) / spacing**2))
     none = np.zeros(count, np.intp)
@@ -57,7 +57,7 @@ def _scattered_round(parts: Parts, spacing: float, seed: int, period: Period) ->
         tried = ASIDE + rng.random((count, 2)) * period.window
         free = ~np.isin(_cells(tried, none, spacing), _cells(points, none[:1], spacing))
         tried = tried[free]
-        inside, of = tree.query(shapely.points(tried), predicate="within")
+        inside, of = held(tried, parts.shapes)
         points, part = np.concatenate([points, tried[inside]]), np.concatenate([part, of])
         if len(points):
             kept = period.apart(points, spacing)
@@ -71,7 +71,7 @@ def _scattered_within(
     """Return places within parts and the region of a group, no two images nearer than the spacing."""
     assert period.group is not None
     rng = np.random.default_rng(seed)
-    tree, region = shapely.STRtree(parts.shapes), period.group.region
+    region = period.group.region
     shapely.prepare(region)
     low, high = np.split(np.array(region.bounds), 2)
     count = int(np.ceil(TRIES * np.prod(high - low) / spacing**2))
@@ -80,19 +80,19 @@ def _scattered_within(
         tried = low + rng.random((count, 2)) * (high - low)
         free = ~np.isin(_cells(tried, none, spacing), _cells(points, none[:1], spacing))
         free &= shapely.contains_xy(region, tried[:, 0], tried[:, 1])
-        free[free] = _within(tree, tried[free])
+        free[free] = _within(parts.shapes, tried[free])
         points = np.concatenate([points, tried[free]])
         points, _ = settled_places(points, np.arange(len(points)), spacing, period, onto_axes)
         # What was moved may lie nearer to an edge.
-        points = points[_within(tree, points)]
-    inside, part = tree.query(shapely.points(points), predicate="within")
+        points = points[_within(parts.shapes, points)]
+    inside, part = held(points, parts.shapes)
     return points[inside], part
 
 
-def _within(tree: shapely.STRtree, points: Array) -> NDArray[np.bool_]:
-    """Return which points lie within the shapes of a tree."""
+def _within(shapes: Geometries, points: Array) -> NDArray[np.bool_]:
+    """Return which points lie within any of some shapes."""
     found = np.zeros(len(points), bool)
-    found[tree.query(shapely.points(points), predicate="within")[0]] = True
+    found[held(points, shapes)[0]] = True
     return found
 
 

@@ -19,6 +19,7 @@ import shapely
 from batik_vector.artwork import Geometries
 from batik_vector.errors import TooLargeError
 from batik_vector.geometry import work
+from batik_vector.geometry.nearness import boxes
 from batik_vector.geometry.sampling import Array, Indices
 from batik_vector.tiling.tossing.marks import Complexes, Field, Poses
 from batik_vector.tiling.tossing.scatter import Scatter
@@ -94,7 +95,8 @@ class Room:
         self.free = np.ones(len(self.places), bool)
         # Nearer than this to a mark no place of a cell will do.
         self._reach = least - math.hypot(*self.sides) / 2
-        self._tree = shapely.STRtree(shapely.points(self.places.real, self.places.imag))
+        self._points = np.asarray(shapely.points(self.places.real, self.places.imag), dtype=object)
+        self._tree = shapely.STRtree(self._points)
 
     def take(self, shapes: Geometries, distance: float) -> None:
         """Give away the room of shapes, and of all that is nearer to them than a distance."""
@@ -102,7 +104,11 @@ class Room:
             return
         reach = self._reach + distance
         if reach > 0:
-            _, cells = self._tree.query(shapes, predicate="dwithin", distance=reach)
+            # Only what is still free is measured.
+            shape, cells = self._tree.query(boxes(shapes, reach))
+            shape, cells = shape[self.free[cells]], cells[self.free[cells]]
+            shapely.prepare(shapes)
+            cells = cells[shapely.dwithin(shapes[shape], self._points[cells], reach)]
         else:
             _, cells = self._tree.query(shapely.buffer(shapes, reach), predicate="contains")
         self.free[cells] = False

@@ -14,6 +14,7 @@ import shapely
 
 from batik_vector.artwork import Geometries
 from batik_vector.geometry.maps.affine import Affine
+from batik_vector.geometry.nearness import boxes, nearer
 from batik_vector.geometry.sampling import Array, Indices
 from batik_vector.tiling.torus.torus import Lattice, Window, translate, wrapping
 from batik_vector.tiling.tossing.marks import Complexes, Field, Flags, Kit, Poses
@@ -139,7 +140,7 @@ class Scatter:
             Which of the marks, how far (0 where they overlap), and the number of the mark that is there; -1
             for what was taken. The images of a mark under the symmetry come with its own number.
         """
-        i, j = self._others(_boxes(marks.shapes, reach), marks, reach, own)
+        i, j = self._others(boxes(marks.shapes, reach), marks, reach, own)
         gap = shapely.distance(marks.shapes[i], self.there.shapes[j])
         return self._with_own(marks, reach, own, (i, gap, j))
 
@@ -194,9 +195,10 @@ class Scatter:
             distance: to be kept from all.
             kin: to be kept from marks of the same motif; no less than ``distance``.
         """
-        i, j = self._tree.query(_boxes(marks.shapes, kin))
+        i, j = self._tree.query(boxes(marks.shapes, kin))
         free, i, j, least = self._by_discs(marks, i, j, distance, kin)
-        free[i[nearer(marks.shapes[i], self.there.shapes[j], least)]] = False
+        # What is there is asked of again and again.
+        free[i[nearer(self.there.shapes[j], marks.shapes[i], least)]] = False
         mine, images = self.own_images(marks, kin)
         free[mine[nearer(marks.shapes[mine], images, kin)]] = False
         return free
@@ -239,7 +241,7 @@ class Scatter:
         """Return which marks can all be set down, each going before those that come after it."""
         count = len(marks)
         images = self.torus.images(marks.owned(np.arange(count)), self.largest + kin)
-        i, j = shapely.STRtree(images.shapes).query(_boxes(marks.shapes, kin))
+        i, j = shapely.STRtree(images.shapes).query(boxes(marks.shapes, kin))
         least = np.where(marks.kinds[i] == images.kinds[j], kin, distance)
         near = (images.owners[j] != i) & (marks.apart(i, images, j) <= least)
         i, j, least = i[near], j[near], least[near]
@@ -260,22 +262,11 @@ class Scatter:
         return np.flatnonzero(taken)
 
 
-def _boxes(shapes: Geometries, reach: float) -> Geometries:
-    low_x, low_y, high_x, high_y = shapely.bounds(shapes).T
-    return np.asarray(shapely.box(low_x - reach, low_y - reach, high_x + reach, high_y + reach), dtype=object)
-
-
 def _round(marks: Field, reach: float) -> Geometries:
     """Return lines across the squares round the circles of marks, and further by reach: a tree sees those."""
     by = (1 + 1j) * (marks.reach + reach)
     ends = np.column_stack([marks.middles - by, marks.middles + by])
     return np.asarray(shapely.linestrings(np.stack([ends.real, ends.imag], axis=-1)), dtype=object)
-
-
-def nearer(a: Geometries, b: Geometries, distance: float | Array) -> Flags:
-    """Return which pairs come nearer than a distance; at a distance of 0, which meet."""
-    gap = shapely.distance(a, b)
-    return np.asarray((gap < distance) | (gap <= 0))
 
 
 def in_steps(operations: Sequence[Affine], per_mm: float) -> tuple[Affine, ...]:
