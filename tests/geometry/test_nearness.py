@@ -38,9 +38,9 @@ def test_pairs_that_come_nearer_are_those_that_are_measured_so(vertices: int, di
 @pytest.mark.parametrize("vertices", [8, 2 * MANY])
 def test_what_is_exactly_as_far_as_asked_is_not_nearer(vertices: int) -> None:
     side = np.linspace(0, 1, vertices // 2)
-    left = shapely.polygons(np.column_stack([np.r_[0 * side, 1 + 0 * side], np.r_[side, side[::-1]]]))
-    right = shapely.affinity.translate(left, 3.0)
-    pair = np.array([left], dtype=object), np.array([right], dtype=object)
+    ring = np.column_stack([np.r_[0 * side, 1 + 0 * side], np.r_[side, side[::-1]]])
+    left, right = (np.array([shapely.Polygon(ring + [x, 0])], dtype=object) for x in (0, 3))
+    pair = left, right
     assert not nearer(*pair, 2.0)[0]
     assert nearer(*pair, np.nextafter(2.0, 3.0))[0]
     assert pairs_within(pair[0], pair[1], 2.0)[0].tolist() == [0]
@@ -58,7 +58,7 @@ def test_pairs_within_reach_are_those_that_all_with_all_would_show() -> None:
 
 
 def test_points_are_held_by_what_they_lie_within_and_not_by_what_they_lie_on() -> None:
-    areas = np.append(stars(5, 20, 200), shapely.box(100, 0, 101, 1))
+    areas: Geometries = np.array([*stars(5, 20, 200), shapely.box(100, 0, 101, 1)], dtype=object)
     points = np.vstack([np.random.default_rng(6).random((500, 2)) * 40, [[100.5, 0.5], [100, 0.5]]])
     one, other = held(points, areas)
     found = np.zeros((len(points), len(areas)), bool)
