@@ -40,13 +40,13 @@ sbom: $(TOOLS_READY) ## write the bill of materials (CycloneDX): out/batik-vecto
 	$(PY) -m tools.sbom >out/batik-vector.cdx.json
 
 test: $(TOOLS_READY) ## run the tests; ONLY="tests/tiling tests/export": only those; FEW=3: on every third sample
-	$(PY) -m pytest $(WORKERS) -rs $(if $(FEW),--few $(FEW)) $(if $(LOWEST),-m 'not clients and not long') $(ONLY)
+	$(PY) -m pytest $(WORKERS) -rs $(if $(FEW),--few $(FEW)) $(if $(LOWEST),-m 'not clients and not long and not slow') $(ONLY)
 
 test-clients: $(TOOLS_READY) $(CLIENTS_READY) site ## open the files (FEW=3: of every third sample) in Inkscape, LibreCAD, LinuxCNC, vpype, hp2xx, Chromium, poppler, mupdf, Ghostscript, qpdf
 	$(PY) -m pytest $(WORKERS) -rs $(if $(FEW),--few $(FEW)) -m clients
 
-test-long: $(TOOLS_READY) ## run the random tests with many more examples; LONG=3: three times as many
-	BATIK_LONG=$(or $(LONG),1) $(PY) -m pytest $(WORKERS) -rs -m 'long and not clients'
+test-long: $(TOOLS_READY) ## run what is slow, and the random tests with many more examples; LONG=3: three times as many
+	BATIK_LONG=$(or $(LONG),1) $(PY) -m pytest $(WORKERS) -rs -m '(long or slow) and not clients'
 
 test-pythons: ## lint and test on PYTHON and on the newest that this machine has; ALL=1: on every one from 3.11 on
 	@tools/pythons.sh lint test

@@ -24,6 +24,7 @@ from batik_vector.compiling.compiler import inspect
 from batik_vector.recipe.outputs import OUTPUTS
 from tests.calling import runner
 from tests.recipe.test_bad_input import BASE
+from tests.thorough import rarely
 
 
 def call(*args: str) -> Result:
@@ -188,7 +189,7 @@ def test_a_stretch_is_told_alike_everywhere(desk: Path) -> None:
     assert "stretched to fit: -0.311 % across" in good("check", "k.toml", *fit).stdout
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", rarely(KINDS, 3))
 def test_every_starter_is_sound(desk: Path, kind: str) -> None:
     good("new", "--kind", kind)
     assert (desk / f"{kind}.toml").read_bytes() == (STARTERS / f"{kind}.toml").read_bytes()

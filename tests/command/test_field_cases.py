@@ -12,6 +12,7 @@ import pytest
 
 from batik_vector.command.cli import cli
 from tests.calling import runner
+from tests.thorough import slow
 
 CASES = Path(__file__).with_name("cases")
 SAMPLES = Path(__file__).resolve().parents[2] / "samples"
@@ -135,9 +136,12 @@ SAVED: dict[str, Callable[[str], str]] = {
 }
 
 
+LARGE = ("toss-leaves", "chrysanthemum-line", "miao-drum", "group-p3")
+
+
 @pytest.fixture(
     scope="module",
-    params=["kawung", "trellis", "toss-leaves", "chrysanthemum-line", "miao-drum", "group-p3"],
+    params=["kawung", "trellis", *(pytest.param(each, marks=slow) for each in LARGE)],
 )
 def drawing(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> str:
     """The drawing of a sample that passes, without its recipe."""

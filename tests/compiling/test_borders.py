@@ -36,6 +36,7 @@ from tests.frames import (
     recipe,
     sound,
 )
+from tests.thorough import examples, long
 
 
 def wave_of(name: str) -> Placement:
@@ -139,7 +140,8 @@ def test_mirrored_sides_are_mirror_images() -> None:
         assert shapely.union_all(areas).symmetric_difference(turned(areas, (392, 312), matrix)).area < 1e-9
 
 
-@settings(many, max_examples=50)
+@long
+@settings(many, max_examples=examples(15, 60))
 @given(frames())
 def test_every_border_is_in_normal_form_and_keeps_to_its_band(
     frame: tuple[Recipe, list[BorderSpec], tuple[float, float, float, float]],

@@ -18,6 +18,7 @@ from batik_vector.machines import Machine, Motion
 from batik_vector.machines import Tool as Held
 from batik_vector.processes.options import PlotProcess
 from batik_vector.processes.prepared import Prepared
+from tests.thorough import slow
 
 SAMPLES = Path(__file__).parents[2] / "samples"
 PLAIN = Machine()
@@ -172,7 +173,7 @@ def test_what_was_plotted_once_is_plotted_again_as_it_is() -> None:
         ("kawung", PlotProcess(once="all", hidden="remove")),  # type: ignore[arg-type]
         ("chrysanthemum-line", PlotProcess()),
         # Holes of it ran out into needles whose tips lay on the seam.
-        ("five-circle", PlotProcess()),
+        pytest.param("five-circle", PlotProcess(), marks=slow),
     ],
 )
 def test_a_plotted_tile_keeps_its_certificate(sample: str, spec: PlotProcess, tmp_path: Path) -> None:

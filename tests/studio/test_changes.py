@@ -21,6 +21,7 @@ from batik_vector.studio.drafts import Draft
 from batik_vector.studio.mirroring import mirrored
 from tests.studio.test_drafts import FLOWER
 from tests.studio.text.test_rewriting import comments
+from tests.thorough import slow
 
 SAMPLES = Path(__file__).parents[2] / "samples"
 
@@ -42,7 +43,7 @@ def apart(one: shapely.Geometry, other: shapely.Geometry) -> float:
     [
         ("group-p4g", True),
         ("group-p4g", False),
-        ("lasem-bird", False),
+        pytest.param("lasem-bird", False, marks=slow),
         ("trellis", True),
     ],
 )

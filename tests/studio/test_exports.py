@@ -15,6 +15,7 @@ from batik_vector.studio.drafts import Draft
 from batik_vector.studio.exports import Exported, download, export, file_names, on_paper, with_output, zipped
 from batik_vector.studio.pictures import EXPORT, Pictures
 from tests.studio.test_drafts import FLOWER
+from tests.thorough import slow
 
 SAMPLES = Path(__file__).parents[2] / "samples"
 ALL = tuple(FORMATS)
@@ -32,8 +33,8 @@ def commands(source: Path, folder: Path, formats: tuple[str, ...]) -> dict[str, 
     [
         ("own-boteh", ALL),
         ("machine-plotter", ("hpgl", "gcode")),
-        ("border-p2", ("svg",)),
-        ("lasem-bird", ("dxf",)),
+        pytest.param("border-p2", ("svg",), marks=slow),
+        pytest.param("lasem-bird", ("dxf",), marks=slow),
         ("machine-laser", ()),
     ],
 )

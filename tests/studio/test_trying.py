@@ -13,6 +13,7 @@ from batik_vector.studio.page.trying import GLANCE, TRIAL, held, lack_of
 from batik_vector.studio.pictures import Picture, Pictures
 from batik_vector.studio.views import Looker
 from tests.studio.test_changes import SAMPLES
+from tests.thorough import slow
 
 KAWUNG = Draft.read(SAMPLES / "kawung.toml")
 SLIT = """
@@ -69,6 +70,7 @@ def test_the_first_variation_that_holds_is_gone_on_from() -> None:
     assert tried(one) == ""
 
 
+@slow
 def test_where_none_holds_that_is_said() -> None:
     scales = [(f"place[{number}].scale", 0.01) for number in range(len(KAWUNG.tables["place"]))]
 

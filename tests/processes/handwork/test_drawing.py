@@ -15,7 +15,7 @@ from batik_vector.geometry.arrangement import Arrangement, arranged
 from batik_vector.machines import Machine
 from batik_vector.processes.handwork.options import HandProcess
 from tests.processes.handwork.tiles import COTTON, SOGA, on_grid, random_tile, rings, steps, tile
-from tests.thorough import examples, long, some, whole
+from tests.thorough import examples, long, slow
 
 
 def drawn(page: Artwork, **options: object) -> Artwork:
@@ -156,8 +156,8 @@ def test_a_cloth_is_no_tile() -> None:
         drawn(Artwork(page.title, page.cell, page.layers, page.cloth, bleed=3.0))
 
 
-@whole
-@pytest.mark.parametrize("number", some([549, 411], 2))
+@slow
+@pytest.mark.parametrize("number", [549, 411])
 def test_nothing_runs_a_hair_beside_the_seam_nor_bends_on_it(number: int) -> None:
     """A corner of the one came to lie on the tile's edge, and an outline of the other ran 2 µm beside it."""
     page = random_tile(number)

@@ -29,7 +29,7 @@ from batik_vector.recipe.fills import (
     VeinLines,
 )
 from tests.geometry.fills.regions import regions
-from tests.thorough import long
+from tests.thorough import examples, long
 
 HAIR = 1e-3
 """A micrometre, in mm."""
@@ -76,7 +76,7 @@ def test_marks_stay_within_keep_the_margin_and_never_overlap(fill: Fill) -> None
 @long
 @pytest.mark.parametrize("fill", ALL, ids=NAMES)
 def test_so_they_do_in_many_regions(fill: Fill) -> None:
-    holds(fill, regions(1000, 500, 8.0))
+    holds(fill, regions(1000, examples(60, 500), 8.0))
 
 
 def nearest(marks: Geometries, region: Indices) -> np.ndarray:

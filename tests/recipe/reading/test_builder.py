@@ -15,6 +15,7 @@ from batik_vector.recipe.model import Recipe
 from batik_vector.recipe.reading import builder
 from batik_vector.recipe.reading.builder import UnsureError, built
 from batik_vector.recipe.reading.validator import validated
+from tests.thorough import examples, long
 
 FOLDER = Path(__file__).resolve().parents[3] / "samples"
 SAMPLES = {path.stem: tomllib.loads(path.read_text("utf-8")) for path in sorted(FOLDER.rglob("*.toml"))}
@@ -52,7 +53,8 @@ odd_values = st.sampled_from(
 )
 
 
-@settings(max_examples=400, deadline=None, derandomize=True)
+@long
+@settings(max_examples=examples(100, 400), deadline=None, derandomize=True)
 @given(st.data())
 def test_what_it_accepts_after_any_change_pydantic_accepts_alike(data: st.DataObject) -> None:
     table = SAMPLES[data.draw(st.sampled_from(sorted(SAMPLES)))]
