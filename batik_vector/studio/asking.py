@@ -28,6 +28,7 @@ class View:
         pointers: whether what the certificate finds wrong is marked in the picture, in a layer "check".
         floor: whether the tile is held to what ``batik-vector random`` asks of a variation.
         motif: name of a motif that is looked at alone, whatever the kind; nothing for the whole.
+        colourway: name of the colourway, or palette, in whose colours it is; nothing for the recipe's own.
         rough: whether it is looked at for a moment alone, while a slider moves: edges may be some pixels off.
     """
 
@@ -41,6 +42,7 @@ class View:
     rough: bool = False
     floor: bool = False
     motif: str = ""
+    colourway: str = ""
 
     def __post_init__(self) -> None:
         if self.kind not in KINDS:
@@ -56,9 +58,11 @@ class Wishes:
         processes: words as ``--process`` takes them, for all files.
         machine: as ``--machine`` takes it.
         recipe: whether the recipe itself is among the files, with the drawings that it carries.
+        colourways: as ``--colourway`` takes them: names, or "all"; each file once for each of them.
     """
 
     formats: tuple[str, ...] = ()
     processes: tuple[str, ...] = ()
     machine: str = ""
     recipe: bool = False
+    colourways: tuple[str, ...] = ()

@@ -19,6 +19,7 @@ from typing import Any
 from batik_vector.errors import BatikError, ExportError, Fault, RecipeError
 from batik_vector.export import FORMATS
 from batik_vector.making.jobs import Job, planned
+from batik_vector.making.palettes import jobs_in_colourways
 from batik_vector.making.running import run
 from batik_vector.recipe.loading import read_recipe
 from batik_vector.studio.asking import Wishes
@@ -52,7 +53,8 @@ def file_names(draft: Draft, wishes: Wishes) -> tuple[str, ...]:
         RecipeError, ExportError: where they cannot be made.
     """
     with tempfile.TemporaryDirectory(prefix="batik-") as folder:
-        names = [path.name for path, _ in _job(draft, wishes, Path(folder)).files]
+        jobs = _jobs(draft, wishes, Path(folder))
+        names = [path.name for job in jobs for path, _ in job.files]
     return (*names, f"{draft.stem}{RECIPE}") if wishes.recipe else tuple(names)
 
 
@@ -61,10 +63,11 @@ def export(draft: Draft, wishes: Wishes, tell: Callable[[str], None] = lambda _:
     begun = time.perf_counter()
     try:
         with tempfile.TemporaryDirectory(prefix="batik-") as folder:
-            job = _job(draft, wishes, Path(folder))
-            for name in dict.fromkeys(output.format for _, output in job.files):
+            jobs = _jobs(draft, wishes, Path(folder))
+            for name in dict.fromkeys(output.format for job in jobs for _, output in job.files):
                 FORMATS[name].check_ready()
-            report = run(job, tell)
+            reports = [run(job, tell) for job in jobs]
+            report = {**reports[0], "files": [each for one in reports for each in one["files"]]}
             files = dict(_read(Path(folder), report))
     except RecipeError as error:
         return Exported(faults=error.faults, seconds=time.perf_counter() - begun)
@@ -127,7 +130,8 @@ def on_paper(draft: Draft, wishes: Wishes, pages: str = "", inks: str = "") -> l
     return parts
 
 
-def _job(draft: Draft, wishes: Wishes, folder: Path) -> Job:
+def _jobs(draft: Draft, wishes: Wishes, folder: Path) -> list[Job]:
+    """Return what makes the files: one for each colourway, where any are asked for."""
     recipe = read_recipe(draft.text, draft.stem, folder=draft.folder, drawings=dict(draft.drawings))
     called: dict[str, Any] = {}
     if wishes.processes:
@@ -138,9 +142,10 @@ def _job(draft: Draft, wishes: Wishes, folder: Path) -> Job:
         from batik_vector.recipe.reading.machines import read_machine
 
         called |= {"machine": wishes.machine, "machine_profile": read_machine(wishes.machine)}
-    job = Job(draft.stem, recipe, stem=draft.stem)
-    (job,) = planned([job], folder, wishes.formats, called)
-    return job
+    jobs = [Job(draft.stem, recipe, stem=draft.stem)]
+    if wishes.colourways:
+        jobs = jobs_in_colourways(jobs, wishes.colourways)
+    return planned(jobs, folder, wishes.formats, called)
 
 
 def _read(folder: Path, report: Mapping[str, Any]) -> list[tuple[str, bytes]]:

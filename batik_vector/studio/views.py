@@ -10,7 +10,7 @@ from __future__ import annotations
 import functools
 import re
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import field, replace
 from pathlib import Path
 from typing import Any
@@ -59,7 +59,8 @@ class Shown:
 
     Args:
         svg: the picture; empty where there are faults.
-        facts: as ``compile --json`` reports them, and ``size_mm``, what the picture shows; ``warnings``.
+        facts: as ``compile --json`` reports them, and ``size_mm``, what the picture shows; ``warnings``;
+            and the colour of the ``cloth``.
         verdict: as ``check --json`` reports it; empty where it was not asked for. With ``View.floor`` also
             ``lack``, what the tile lacks as a variation, or nothing.
         faults: why there is no picture.
@@ -95,10 +96,15 @@ class Looker:
 
     def _look(self, draft: Draft, view: View, tell: Callable[[str], None]) -> Shown:
         if view.motif:
-            whole = read_recipe(draft.text, draft.stem, folder=draft.folder, drawings=dict(draft.drawings))
+            whole = _read(draft, view)
             one = compile_recipe(alone(whole, view.motif))
             return Shown(cropped(svg_text(one, SHOWN), one))
         recipe, tile = self._compiled(draft, view, tell)
+        if view.colourway:
+            # No colour moves an edge: what is compiled is there in all of them.
+            other = _read(draft, view)
+            tile = None if tile is None else _in_colours_of(other, tile)
+            recipe = replace(other, tolerance=recipe.tolerance)
         tell("drawing")
         verdict: Mapping[str, Any] = {}
         drawn = tile
@@ -118,14 +124,14 @@ class Looker:
         svg, size = self._drawn(recipe, drawn, view, tell)
         if view.look == "lines":
             svg = as_lines(svg, max(size) / 900)
-        return Shown(svg, facts | {"size_mm": list(size)}, verdict)
+        return Shown(svg, facts | {"size_mm": list(size), "cloth": recipe.cloth.colour}, verdict)
 
     def _compiled(
         self, draft: Draft, view: View, tell: Callable[[str], None]
     ) -> tuple[Recipe, Artwork | None]:
         key = draft.text, draft.folder, draft.drawings
         if self._known is None or self._known[0] != key:
-            recipe = read_recipe(draft.text, draft.stem, folder=draft.folder, drawings=dict(draft.drawings))
+            recipe = _read(draft, replace(view, colourway=""))
             self._known = key, recipe, None, False
         _, recipe, tile, rough = self._known
         # A sketch serves no other view, and need not be made twice.
@@ -162,6 +168,31 @@ class Looker:
         return svg_text(page, SHOWN), (page.cell.width, page.cell.height)
 
 
+def _read(draft: Draft, view: View) -> Recipe:
+    """Return the recipe of a draft, in the colours that a view asks for."""
+
+    def read(changes: Sequence[str] = ()) -> Recipe:
+        return read_recipe(draft.text, draft.stem, changes, draft.folder, drawings=dict(draft.drawings))
+
+    if not view.colourway:
+        return read()
+    from batik_vector.making.palettes import colourways_of, in_colourway
+
+    recipe = read()
+    (name,) = colourways_of(recipe, [view.colourway])
+    return read(in_colourway(recipe, name))
+
+
+def _in_colours_of(recipe: Recipe, tile: Artwork) -> Artwork:
+    """Return a tile in the colours of a recipe that says the same of all else."""
+    inks = {name: spec.named(name) for name, spec in recipe.ink.items()}
+    layers = tuple(replace(layer, ink=inks[layer.ink.name]) for layer in tile.layers)
+    provenance = replace(tile.provenance, recipe=recipe.source)
+    return replace(
+        tile, layers=layers, cloth=recipe.cloth.colour, dyeing=recipe.dyeing, provenance=provenance
+    )
+
+
 def as_lines(svg: str, width: float) -> str:
     """Return a picture as its outlines alone, thin, on bare ground.
 
@@ -183,7 +214,7 @@ def foreseen(draft: Draft, view: View) -> tuple[int, float]:
     Raises:
         BatikError: where the draft cannot be read.
     """
-    recipe = read_recipe(draft.text, draft.stem, folder=draft.folder, drawings=dict(draft.drawings))
+    recipe = _read(draft, view)
     ahead = foretold(replace(recipe, tolerance=max(recipe.tolerance, _tolerance(recipe, view))))
     return ahead.vertices, ahead.effort * _pace()
 

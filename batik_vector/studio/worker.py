@@ -103,7 +103,10 @@ def _made(
             from batik_vector.studio.exports import export
 
             held = asked["wishes"]
-            wishes = Wishes(tuple(held["formats"]), tuple(held["processes"]), held["machine"], held["recipe"])
+            formats, processes, colourways = (
+                tuple(held[key]) for key in ("formats", "processes", "colourways")
+            )
+            wishes = Wishes(formats, processes, held["machine"], held["recipe"], colourways)
             made = export(draft, wishes, tell)
             files, faults, seconds = dict(made.files), made.faults, made.seconds
             told["facts"] = made.report

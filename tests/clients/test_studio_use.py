@@ -11,10 +11,12 @@ import pytest
 
 pytest.importorskip("nicegui", reason="make test-clients installs the studio")
 
+from batik_vector.command.cli import cli
 from batik_vector.studio.changes import variations
 from batik_vector.studio.drafts import Draft
 from batik_vector.studio.page.fields import shown
 from batik_vector.studio.parameters import controls
+from tests.calling import runner
 from tests.clients.studio import Page, Studio, browser, studio
 from tests.clients.test_studio import PETAL, ROOT, compiled
 from tests.studio.test_trying import KAWUNG, SAID, SLIT, tried
@@ -250,3 +252,40 @@ def test_what_is_saved_in_an_editor_is_seen_on_the_page_of_watch(chromium: Any, 
         page.page.locator(".faults").wait_for(state="hidden")
         assert not page.errors
     assert (tmp_path / "out" / "mine.svg").is_file()
+
+
+def test_other_colours_are_looked_at_and_exported(chromium: Any, tmp_path: Path) -> None:
+    recipe = tmp_path / "mine.toml"
+    night = '\n[colourway.night]\ncloth = "#101010"\nink = { wax = "#ffe9b0" }\n'
+    recipe.write_text((ROOT / "samples" / "figure-14a.toml").read_text() + night)
+    with studio(tmp_path / "own", str(recipe)) as made:
+        page = Page(chromium, made.address)
+        drawing = page.picture()
+
+        def colours() -> set[str]:
+            return set(
+                page.page.evaluate(
+                    "[...studio.state.host.shadowRoot.querySelectorAll('.stage > svg:not(.over) [fill]')]"
+                    ".map(each => each.getAttribute('fill'))"
+                )
+            )
+
+        def choose(name: str, seen: str) -> None:
+            page.page.get_by_role("button", name="Colours:").click()
+            page.page.get_by_role("menuitem", name=name, exact=True).click()
+            deadline = 200
+            while seen not in colours() and deadline:
+                page.page.wait_for_timeout(100)
+                deadline -= 1
+            assert seen in colours()
+
+        choose("night", "#ffe9b0")
+        assert page.picture() == drawing
+        page.page.get_by_role("button", name="Colours: night").wait_for()
+        downloaded = page.download("svg").read_bytes()
+        command = ["compile", str(recipe), "--colourway", "night", "-o", str(tmp_path / "out")]
+        assert runner().invoke(cli, command).exit_code == 0
+        assert downloaded == (tmp_path / "out" / "mine-night.svg").read_bytes()
+        choose("as written", "#f4efe2")
+        page.page.get_by_role("button", name="Colours: as written").wait_for()
+        assert not page.errors

@@ -3,17 +3,24 @@ from __future__ import annotations
 import asyncio
 import io
 import zipfile
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from batik_vector.compiling.compiler import compile_recipe
 from batik_vector.export import FORMATS
+from batik_vector.export.svg import svg_text
 from batik_vector.making.jobs import planned, read_jobs
+from batik_vector.making.palettes import in_colourway, jobs_in_colourways
 from batik_vector.making.running import run_quietly
-from batik_vector.studio.asking import Wishes
+from batik_vector.recipe.loading import read_recipe
+from batik_vector.studio.asking import View, Wishes
 from batik_vector.studio.drafts import Draft
+from batik_vector.studio.draping import SHOWN
 from batik_vector.studio.exports import Exported, download, export, file_names, on_paper, with_output, zipped
 from batik_vector.studio.pictures import EXPORT, Pictures
+from batik_vector.studio.views import Looker
 from tests.studio.test_drafts import FLOWER
 from tests.thorough import slow
 
@@ -90,6 +97,62 @@ def test_processes_and_machines_are_those_of_the_call() -> None:
     assert made.faults == ()
     assert made.report["files"][0]["process"]
     assert made.files != export(Draft(FLOWER, stem="k"), Wishes(("svg",))).files
+
+
+@pytest.mark.parametrize(
+    ("name", "asked", "called"),
+    [
+        ("own-peacock", ("all",), 5),
+        ("lasem-bird", ("solo",), 1),
+    ],
+)
+def test_colourways_are_those_of_the_call(
+    tmp_path: Path, name: str, asked: tuple[str, ...], called: int
+) -> None:
+    source = SAMPLES / f"{name}.toml"
+    draft, wishes = Draft.read(source).with_value("tolerance", 0.1), Wishes(("svg",), colourways=asked)
+    made = export(draft, wishes)
+    assert made.faults == ()
+    (tmp_path / source.name).write_text(draft.text, encoding="utf-8")
+    for drawn in SAMPLES.glob(f"{name}*.svg"):
+        (tmp_path / drawn.name).write_bytes(drawn.read_bytes())
+    jobs = jobs_in_colourways(read_jobs([str(tmp_path / source.name)]), asked)
+    for job in planned(jobs, tmp_path / "out", ("svg",)):
+        run_quietly(job)
+    there = {path.name: path.read_bytes() for path in (tmp_path / "out").iterdir()}
+    assert made.files == there
+    assert file_names(draft, wishes) == tuple(made.files)
+    assert len(made.report["files"]) == len(there) == called
+
+
+def test_a_colourway_that_is_none_is_told_with_the_nearest_name() -> None:
+    made = export(Draft.read(SAMPLES / "own-peacock.toml"), Wishes(("svg",), colourways=("solp",)))
+    assert made.files == {}
+    assert "solo" in made.faults[0].message
+
+
+@pytest.mark.parametrize(
+    ("name", "colourway"),
+    [
+        ("own-peacock", "coast"),
+        ("lasem-bird", "solo"),
+        ("machine-rotary", "dusk"),
+        ("wax-javanese", "madura"),
+    ],
+)
+def test_a_colourway_is_seen_as_it_is_compiled(name: str, colourway: str) -> None:
+    draft = Draft.read(SAMPLES / f"{name}.toml").with_value("tolerance", 0.1)
+    looker, view = Looker(), View(tolerance=0.1)
+    before = looker.look(draft, view)
+    seen = looker.look(draft, replace(view, colourway=colourway))
+    assert seen.faults == before.faults == ()
+    recipe = read_recipe(draft.text, folder=draft.folder, drawings=dict(draft.drawings))
+    changes = in_colourway(recipe, colourway)
+    other = read_recipe(draft.text, "", changes, draft.folder, drawings=dict(draft.drawings))
+    assert seen.svg == svg_text(compile_recipe(other), SHOWN) != before.svg
+    assert seen.facts["cloth"] == other.cloth.colour
+    # And back.
+    assert looker.look(draft, view).svg == before.svg
 
 
 def test_what_files_will_be_called_is_known_before() -> None:

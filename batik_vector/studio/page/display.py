@@ -13,6 +13,7 @@ from nicegui import background_tasks, ui
 
 from batik_vector.errors import BatikError, Fault
 from batik_vector.studio.asking import View
+from batik_vector.studio.page.colours import Colours
 from batik_vector.studio.page.live import Live
 from batik_vector.studio.page.parts import Soon, group, icon_button, say, text, toggled, word_button
 from batik_vector.studio.page.slide import Slide
@@ -115,6 +116,7 @@ class Display:
             self.views[name] = word_button(label, lambda name=name: self.look(name))
         self._mark_view()
         group("space")
+        self.colours = Colours(self._colour)
         self._switch("lines", "polyline", "Lines instead of cloth and wax")
         self._switch("guides", "grid_4x4", "Seam guides")
         self._switch("pins", "push_pin", "Pointers of the certificate")
@@ -144,6 +146,10 @@ class Display:
 
         button = icon_button(icon, label, press)
         toggled(button, self._on[name])
+
+    def _colour(self, name: str) -> None:
+        self.session.colourway = name
+        self.refresh()
 
     def look(self, view: str) -> None:
         """Look at the draft in another way."""
@@ -185,7 +191,8 @@ class Display:
         """Ask for a picture of what is open now; of several wishes the newest counts."""
         self._begin_with()
         rough = self.session.held and self._slow
-        draft, view = self.session.draft, View(self.view, rough=rough)
+        self.colours.refresh(self.session.draft)
+        draft, view = self.session.draft, View(self.view, rough=rough, colourway=self.colours.name)
         if self._wanted != (draft, view, self.session.saves):
             self._wanted = draft, view, self.session.saves
             background_tasks.create(self._ask(draft, view))
@@ -195,7 +202,9 @@ class Display:
     async def _ask_alone(self, draft: Draft, motif: str) -> None:
         """Show the motif whose slider moves by itself: it is there before the pattern is."""
         lane = f"{self.client.id}\0motif"
-        picture = await self.session.images.ask(draft, View(motif=motif), lane=lane)
+        picture = await self.session.images.ask(
+            draft, View(motif=motif, colourway=self.colours.name), lane=lane
+        )
         if picture is None or not picture.svg or self.client.is_deleted:
             return
         # What is drawn exactly by now need not be seen in part.
@@ -338,13 +347,13 @@ class Display:
 
     def _list_layers(self, facts: Any) -> None:
         inks = tuple((each["ink"], each["colour"]) for each in facts.get("layers", ()))
+        inks = (("cloth", str(facts.get("cloth", ""))), *inks)
         if inks == self._inks:
             return
         self._inks = inks
         self.layers.clear()
-        cloth = "" if self.session.draft.faults else self.session.draft.recipe.cloth.colour
         with self.layers, group("layers"):
-            for name, colour in (("cloth", cloth), *inks):
+            for name, colour in inks:
                 with group("layer"):
                     ui.checkbox(
                         name,
@@ -362,7 +371,9 @@ class Display:
         if picture.draft is not self.session.draft or self.client.is_deleted:
             return
         # Each tab waits for its own: what another one asks for must not drop it.
-        lane, view = f"\0verdict-{self.client.id}", View("tile", certify=True)
+        # In the same colours, or the tile would be compiled anew.
+        view = View("tile", certify=True, colourway=picture.view.colourway)
+        lane = f"\0verdict-{self.client.id}"
         found = await self.session.images.ask(picture.draft, view, lane=lane, background=True)
         if found is None or not found.verdict or found.draft is not self.session.draft:
             return

@@ -11,8 +11,11 @@ from batik_vector.errors import BatikError
 from batik_vector.export import FORMATS
 from batik_vector.machines import MACHINES
 from batik_vector.processes.options import PROCESSES
+from batik_vector.recipe.colourways import ALL
+from batik_vector.recipe.palettes import PALETTES
 from batik_vector.studio.asking import Wishes
 from batik_vector.studio.exports import FULL, PAPERS, TAPED, Exported, download, on_paper
+from batik_vector.studio.page.colours import colourways
 from batik_vector.studio.page.dialogs import dialog
 from batik_vector.studio.page.parts import group, main_button, offering, report, say, text, word_button
 from batik_vector.studio.pictures import EXPORT
@@ -56,6 +59,12 @@ class Exporting:
             self.inks = ui.select(INKS, value=AS_SAID, label="PDF colours").props("outlined dense")
         pdf.bind_visibility_from(self.ticks["pdf"], "value")
         with group("line-of-fields"):
+            offered = self._colours()
+            # As it is looked at.
+            seen = self.session.colourway if self.session.colourway in offered else AS_SAID
+            self.colours = ui.select(offered, value=seen, label="Colours").props("outlined dense")
+            self.colours.set_visibility(len(offered) > 1)
+        with group("line-of-fields"):
             machines = {NONE: "no machine", **{name: name for name in MACHINES}}
             self.machine = ui.select(machines, value=NONE, label="Machine").props("outlined dense")
             self.process = ui.input("Process").props(f'outlined dense stack-label placeholder="{NONE}"')
@@ -88,6 +97,13 @@ class Exporting:
         if "tile" in tables and "yardage" not in tables:
             found |= {f"{FULL} {name}": f"one sheet of {name}, full of the pattern" for name in PAPERS}
         return found | {f"{TAPED} {name}": f"sheets of {name}, to tape together" for name in PAPERS}
+
+    def _colours(self) -> dict[str, str]:
+        """Return in which colours the files may be."""
+        own, seen = list(colourways(self.draft)), self.session.colourway
+        names = own if seen in own or seen not in PALETTES else [*own, seen]
+        found = {AS_SAID: "as the recipe has them", **{name: name for name in names}}
+        return found | ({ALL: "all colourways, a file each"} if len(own) > 1 else {})
 
     def _asked(self) -> list[str]:
         outputs = self.draft.tables.get("output", []) if not self.draft.faults else []
@@ -123,7 +139,8 @@ class Exporting:
         begun = time.perf_counter()
         files: dict[str, bytes] = {}
         try:
-            whole = Wishes(*asked, bool(self.recipe.value))
+            colours = str(self.colours.value or AS_SAID)
+            whole = Wishes(*asked, bool(self.recipe.value), (colours,) if colours else ())
             pages, inks = str(self.pages.value or AS_SAID), str(self.inks.value or AS_SAID)
             for draft, wishes in on_paper(self.draft, whole, pages, inks):
                 done = await self.session.images.export(draft, wishes, tell=self._tell)

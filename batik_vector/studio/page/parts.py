@@ -47,20 +47,21 @@ def offering(field: ui.input, label: str, words: Sequence[str], take: Callable[[
     """
     with field.add_slot("append"):
         made = ui.button(icon="arrow_drop_down", color=None).props(f'flat dense aria-label="{label}"')
-        with made.classes("plain offered"), ui.menu().props("auto-close"):
+        with made.classes("plain offered"), ui.menu().props("role=menu auto-close"):
             for each in words:
                 menu_row(each, partial(take, each))
     return made
 
 
-def menu_row(word: str, action: Callable[..., Any]) -> None:
-    """Draw a row of a menu; a name of a palette stands beside its colours."""
-    with ui.menu_item(on_click=action).props("dense"):
+def menu_row(word: str, action: Callable[..., Any], colours: Sequence[str] = ()) -> None:
+    """Draw a row of a menu; a name of a palette, or of other colours, stands beside them."""
+    colours = colours or (PALETTES[word].colours if word in PALETTES else ())
+    with ui.menu_item(on_click=action).props("dense role=menuitem"):
         with ui.item_section():
             text(word)
-        if word in PALETTES:
+        if colours:
             with ui.item_section().props("side"), group("dots"):
-                for colour in PALETTES[word].colours:
+                for colour in colours:
                     group("dot").style(f"background: {colour}")
 
 

@@ -61,6 +61,8 @@ class Session:
         """How often a file was saved that is followed."""
         self.motif_held = ""
         """The motif whose slider was moved last, or nothing where it was not a motif's."""
+        self.colourway = ""
+        """The colourway, or palette, in which it was last looked at; nothing for its own colours."""
         self.held = False
         """Whether a slider is in somebody's hand, and another value is about to come."""
         self._listeners: list[Callable[[], None]] = []
