@@ -106,7 +106,19 @@ def _of_areas(ink: InkDrawing, field: Elsewhere, axis: int, limits: Limits) -> l
     edges = ring_edges(np.concatenate([field.healed, field.whole]))
     along = _along(edges, axis, field.frame)
     # Ink lies on the left of an edge: of one that runs up, at smaller x; of one that runs right, at larger y.
-    return _facing(along, axis, limits, field.frame)
+    found = _facing(along, axis, limits, field.frame)
+    # Areas are there whole, and beyond the box end where the tile does: that edge is none of the field's.
+    return [each for each in found if _within(each, field.box)]
+
+
+def _within(sliver: Sliver, box: shapely.Polygon) -> bool:
+    """Return whether a sliver's middle lies in a box of the field: of one that leaves it a translate does."""
+    low_x, low_y, high_x, high_y = box.bounds
+    across, along = (low_x, high_x), (low_y, high_y)
+    if sliver.axis:
+        across, along = along, across
+    middles = (sliver.first + sliver.last) / 2, (sliver.low + sliver.high) / 2
+    return all(low <= at < high for at, (low, high) in zip(middles, (across, along), strict=True))
 
 
 def _of_lines(ink: InkDrawing, axis: int, limits: Limits, frame: Frame) -> list[Sliver]:

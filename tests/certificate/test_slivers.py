@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import shapely
 
 from batik_vector.artwork import Artwork, Cell, Layer
 from batik_vector.certificate import Kind, certify
 from tests.certificate.test_crossings import shrunk
-from tests.certificate.tiles import AREAS, LINES, PEN, WAX, accused, added, marks, tile
+from tests.certificate.tiles import AREAS, LINES, PEN, WAX, accused, added, listed, marks, tile
 
 
 def test_a_slit_that_neither_edge_shows() -> None:
@@ -53,6 +54,14 @@ def test_a_strip_like_those_elsewhere_is_the_drawings_own() -> None:
 def test_a_mark_that_reaches_over_the_seam_by_a_hair_is_no_strip() -> None:
     areas = [*AREAS, [(-0.01, 40), (9, 40), (9, 50), (-0.01, 50)]]
     assert certify(tile(areas=areas, lines=LINES)).faults == ()
+
+
+def test_a_notch_beside_the_seam_in_ink_that_hangs_together_leaves_no_strip() -> None:
+    """Ink of the field is looked at whole, and ends with the tile where nobody looks: no edge of it."""
+    notch = [(10, 0.01), (10, 9), (14, 3), (14, 0.01)]
+    areas = listed([shapely.Polygon([(0, 0), (60, 0), (60, 60), (0, 60)], [notch])])
+    whole = Artwork("whole", Cell(60_000, 60_000), (Layer(WAX, areas),))
+    assert certify(whole, symmetry=False).faults == ()
 
 
 def test_slanting_needles_at_the_seam_are_the_drawings_own() -> None:
