@@ -39,8 +39,8 @@ sbom: $(TOOLS_READY) ## write the bill of materials (CycloneDX): out/batik-vecto
 	@mkdir -p out
 	$(PY) -m tools.sbom >out/batik-vector.cdx.json
 
-test: $(TOOLS_READY) ## run the tests; ONLY="tests/tiling tests/export": only those; FEW=3: on every third sample
-	$(PY) -m pytest $(WORKERS) -rs $(if $(FEW),--few $(FEW)) $(if $(LOWEST),-m 'not clients and not long and not slow') $(ONLY)
+test: $(TOOLS_READY) ## run the tests; ONLY="tests/tiling tests/export": only those; FEW=3: on every third sample; PART=2: every second test
+	$(PY) -m pytest $(WORKERS) -rs $(if $(FEW),--few $(FEW)) $(if $(PART),--part $(PART)) $(if $(LOWEST),-m 'not clients and not long and not slow') $(ONLY)
 
 test-clients: $(TOOLS_READY) $(CLIENTS_READY) site ## open the files (FEW=3: of every third sample) in Inkscape, LibreCAD, LinuxCNC, vpype, hp2xx, Chromium, poppler, mupdf, Ghostscript, qpdf
 	$(PY) -m pytest $(WORKERS) -rs $(if $(FEW),--few $(FEW)) -m clients

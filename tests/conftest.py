@@ -37,14 +37,20 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         default=1,
         help="of a test that is tried on many samples, try every Nth: which ones, hangs on the test's name",
     )
+    parser.addoption(
+        "--part",
+        type=int,
+        default=1,
+        help="run one test in N: which ones, hangs on their names",
+    )
 
 
 # After what is chosen by marks.
 @pytest.hookimpl(trylast=True)
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    part: int = config.getoption("--part")
+    _leave_out(config, items, {item for item in items if zlib.crc32(item.nodeid.encode()) % part})
     few: int = config.getoption("--few")
-    if few < 2:
-        return
     of_test: dict[str, list[pytest.Item]] = {}
     for item in items:
         of_test.setdefault(item.nodeid.partition("[")[0], []).append(item)
@@ -55,5 +61,9 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         for number, item in enumerate(each)
         if (number + zlib.crc32(name.encode())) % few
     }
+    _leave_out(config, items, left_out)
+
+
+def _leave_out(config: pytest.Config, items: list[pytest.Item], left_out: set[pytest.Item]) -> None:
     config.hook.pytest_deselected(items=[item for item in items if item in left_out])
     items[:] = [item for item in items if item not in left_out]

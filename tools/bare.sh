@@ -39,8 +39,8 @@ if [ "${1:-}" = --inside ]; then
     cp -r "$folder/clone" "$root/srv/batik_vector"
     cp "$folder/here" "$root/srv/here"
     kept=(HOME=/srv LANG=C.UTF-8 PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin)
-    # So is whether a change is judged, when random tests try the same everywhere, and on how many samples.
-    for name in http_proxy https_proxy no_proxy CI FEW; do
+    # So is whether a change is judged, when random tests try the same everywhere, and how many tests, on how many samples.
+    for name in http_proxy https_proxy no_proxy CI FEW PART; do
         if [ -n "${!name:-}" ]; then kept+=("$name=${!name}"); fi
     done
     in_it() { chroot "$root" env -i "${kept[@]}" sh -c "cd /srv/batik_vector && $1" </dev/null; }
