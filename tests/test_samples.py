@@ -93,7 +93,7 @@ def test_the_papers_figures_and_six_designs_more_are_there() -> None:
 in_turn = functools.partial(pytest.mark.parametrize, "name", scope="module")
 
 
-@in_turn(rarely(TILES, 3))
+@in_turn(rarely(TILES, 6))
 def test_the_tile_is_sound_and_its_opposite_edges_are_bit_identical(name: str) -> None:
     artwork = compiled(name)
     assert violations(artwork) == []
@@ -120,13 +120,13 @@ def test_the_field_cut_elsewhere_is_the_tile(name: str) -> None:
         assert abs(difference(layer.areas, areas)) < 1e-6
 
 
-@in_turn(rarely(TILES, 3))
+@in_turn(rarely(TILES, 6))
 def test_the_certificate_passes(name: str) -> None:
     certificate = certify(compiled(name), symmetry=False)
     assert certificate.passed, certificate.faults
 
 
-@pytest.mark.parametrize("asked", COPIES)
+@pytest.mark.parametrize("asked", rarely(list(COPIES), 4))
 def test_the_group_in_the_drawing_is_the_one_asked_for(asked: str) -> None:
     artwork = compiled(f"group-{asked}")
     found = found_group(artwork.layers, artwork.cell)
@@ -134,7 +134,7 @@ def test_the_group_in_the_drawing_is_the_one_asked_for(asked: str) -> None:
     assert (found.name, found.copies) == (asked, COPIES[asked])
 
 
-@in_turn(rarely(CLOTHS, 3))
+@in_turn(rarely(CLOTHS, 6))
 def test_the_cloth_is_sound(name: str) -> None:
     page = cloth(name)
     assert violations(collected(page)) == []
@@ -146,7 +146,7 @@ def test_there_is_a_border_of_every_frieze_that_closes_a_rectangle() -> None:
         assert any(border.frieze == frieze and len(border.sides) == 4 for border in recipe.border)
 
 
-@in_turn(rarely(SAMPLES, 3))
+@in_turn(rarely(SAMPLES, 6))
 def test_every_format_is_written(name: str) -> None:
     """Each sample in two formats in turn; the programs they are for open all that matter in tests/clients."""
     page = compiled(name) if name in TILES else cloth(name)

@@ -58,7 +58,7 @@ WINGS: dict[str, Floors] = {
     "tiling": _floors("layouts", "torus", "welding tossing", "symmetry cloth borders"),
     "geometry": _floors(
         "sampling outlines edge_snap lettering",
-        "known work paths arc_fitting congruence",
+        "known work paths arc_fitting congruence nearness",
         "regions nesting",
         "lsystems",
         "generators",

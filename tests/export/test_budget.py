@@ -19,6 +19,7 @@ from batik_vector.export import DxfOptions, GcodeOptions, PdfOptions, SvgOptions
 from batik_vector.export.numbers import Spelling
 from batik_vector.export.pdf import container
 from batik_vector.processes import order
+from tests.thorough import slow
 
 from .drawings import geometries, line
 
@@ -148,6 +149,7 @@ def test_the_count_of_calls_can_fail() -> None:
     assert calls(many, "svg", SvgOptions()) > calls(crowd(2), "svg", SvgOptions()) + 1000
 
 
+@slow
 @settings
 def test_memory_does_not_grow_with_the_page(
     monkeypatch: pytest.MonkeyPatch, format: str, options: Any

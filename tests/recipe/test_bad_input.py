@@ -16,6 +16,7 @@ from click.testing import Result
 from batik_vector.command.cli import cli
 from batik_vector.errors import ExportError, SeamError
 from tests.calling import runner
+from tests.thorough import slow
 
 BASE = """\
 title = "Test"
@@ -83,7 +84,16 @@ def complaints(result: Result, code: int = 2) -> list[str]:
     return [line.removeprefix("batik-vector: error: ") for line in lines]
 
 
-@pytest.mark.parametrize("case", CASES["recipe"], ids=lambda case: case["name"])
+LONGEST = ("bridges broader than an island", "a sheet that does not hold all")
+
+
+@pytest.mark.parametrize(
+    "case",
+    [
+        pytest.param(case, marks=[slow] * (case["name"] in LONGEST), id=case["name"])
+        for case in CASES["recipe"]
+    ],
+)
 def test_a_wrong_recipe_is_told_in_one_clear_line(desk: Path, case: dict[str, Any]) -> None:
     (desk / "k.toml").write_text(recipe({int(number): line for number, line in case["lines"].items()}))
     found = complaints(call("k.toml"))

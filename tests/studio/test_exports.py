@@ -102,8 +102,9 @@ def test_processes_and_machines_are_those_of_the_call() -> None:
 @pytest.mark.parametrize(
     ("name", "asked", "called"),
     [
-        ("own-peacock", ("all",), 5),
-        ("lasem-bird", ("solo",), 1),
+        pytest.param("own-peacock", ("all",), 5, marks=slow),
+        pytest.param("lasem-bird", ("solo",), 1, marks=slow),
+        ("machine-rotary", ("all",), 1),
     ],
 )
 def test_colourways_are_those_of_the_call(
@@ -134,8 +135,8 @@ def test_a_colourway_that_is_none_is_told_with_the_nearest_name() -> None:
 @pytest.mark.parametrize(
     ("name", "colourway"),
     [
-        ("own-peacock", "coast"),
-        ("lasem-bird", "solo"),
+        pytest.param("own-peacock", "coast", marks=slow),
+        pytest.param("lasem-bird", "solo", marks=slow),
         ("machine-rotary", "dusk"),
         ("wax-javanese", "madura"),
     ],

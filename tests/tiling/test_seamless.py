@@ -22,7 +22,7 @@ from tests.recipes import recipes
 from tests.thorough import examples, long
 
 many = settings(
-    max_examples=examples(60, 500),
+    max_examples=examples(30, 500),
     deadline=None,
     derandomize=True,
     # A recipe that fails is small enough to be read as it is; making it smaller takes minutes.

@@ -128,7 +128,7 @@ def farthest(points: np.ndarray, line: np.ndarray) -> float:
     return float(away.max())
 
 
-@pytest.mark.parametrize("curve", rarely(EXAMPLES, 3), ids=name_of)
+@pytest.mark.parametrize("curve", rarely(EXAMPLES, 7), ids=name_of)
 def test_the_drawing_stays_within_the_tolerance_both_ways(curve: Curve) -> None:
     truth = dense(curve)
     tolerance = TOLERANCE_MM / scale_of(truth)

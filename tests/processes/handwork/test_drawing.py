@@ -192,6 +192,7 @@ def test_what_one_mark_draws_to_the_edge_all_do_that_share_the_corner() -> None:
     assert certify(done).faults == ()
 
 
+@slow
 def test_a_drawing_that_hangs_together_over_every_seam_has_no_strips_there() -> None:
     """Its field ends somewhere, outside of what is looked at: a notch 7 µm from there left no strip."""
     done = drawn(random_tile(3261), strength=1.0, seed=3261, reach=2.5, least=0.4)

@@ -17,7 +17,7 @@ from batik_vector.recipe.figures import Figure, draw
 from batik_vector.recipe.look import Dress, Treatment
 from batik_vector.recipe.motif import MOTIFS
 from batik_vector.recipe.motifs.composing import Composed
-from tests.thorough import examples, long
+from tests.thorough import examples, long, rarely
 
 KINDS: dict[str, type[Composed]] = {name: kind for name, kind in MOTIFS.items() if issubclass(kind, Composed)}
 TOLERANCE = 2e-3
@@ -126,7 +126,7 @@ def draw_rings(curve: Any) -> list[Any]:
     return [] if isinstance(curve, Butterfly) else trace(curve, TOLERANCE).rings
 
 
-@pytest.mark.parametrize(("name", "at", "value"), EXTREMES)
+@pytest.mark.parametrize(("name", "at", "value"), rarely(EXTREMES, 3))
 def test_least_and_greatest_values_draw_something_valid(name: str, at: tuple[str, ...], value: Any) -> None:
     sound(draw(changed(KINDS[name](), at, value), 5 * TOLERANCE))
 

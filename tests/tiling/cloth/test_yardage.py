@@ -23,6 +23,7 @@ from batik_vector.tiling.cloth.yardage import Yardage, compile_yardage
 from batik_vector.tiling.torus.torus import clip_areas, clip_lines, to_step_grid, wrap
 from batik_vector.tiling.welding.duplicates import drawn_once
 from tests.recipes import recipes
+from tests.thorough import examples
 
 Shapes = NDArray[np.object_]
 
@@ -103,7 +104,7 @@ specs = st.builds(
 
 
 @settings(
-    max_examples=25,
+    max_examples=examples(12, 50),
     deadline=None,
     derandomize=True,
     phases=[Phase.explicit, Phase.reuse, Phase.generate],
