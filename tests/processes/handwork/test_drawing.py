@@ -165,8 +165,8 @@ def test_nothing_runs_a_hair_beside_the_seam_nor_bends_on_it(number: int) -> Non
     assert certify(done).faults == ()
 
 
-# All of these thousand were run: 82 make no tile, and in two a corner flatter than 10°, which lay on the seam and
-# was its own mirror image, is none any more and faulted.
+# All of these thousand were run: 82 make no tile, and in two a corner flatter than 10°, which lay on the seam
+# and was its own mirror image, is so no longer and faulted.
 NUMBERS = range(3, 6003, 6)
 
 
