@@ -22,8 +22,8 @@ class Curve:
     """A plane curve drawn once by ``at(t)`` for t in [0, 1].
 
     Curves are frozen dataclasses: comparable values whose fields carry their bounds. A new one
-    implements :meth:`at`, and where it has them :meth:`breaks`, :meth:`loops` and :meth:`turns`; or
-    :meth:`outline`. Who has a function, points or a path needs no class: :meth:`from_function`,
+    implements :meth:`at`, and where it has them :meth:`breaks`, :meth:`arcs`, :meth:`loops` and :meth:`turns`;
+    or :meth:`outline`. Who has a function, points or a path needs no class: :meth:`from_function`,
     :meth:`from_points` and :meth:`from_path` make a curve of it.
 
     A ``closed`` curve that ends elsewhere than it begins is closed by a straight edge.
@@ -44,6 +44,13 @@ class Curve:
         Ascending, in (0, 1); 0 and 1 are always breaks. Between two of them the curve is smooth.
         """
         return np.empty(0)
+
+    def arcs(self) -> int:
+        """Return into how many arcs between breaks, equally long in t, it falls that are the first, turned.
+
+        How the first is sampled, all are.
+        """
+        return 1
 
     def loops(self) -> list[tuple[float, float]]:
         """Return the parameter intervals of the rings that bound the curve's region.

@@ -59,8 +59,11 @@ class Hypocycloid(Curve):
 
     def breaks(self) -> Array:
         """The cusps."""
-        cusps = self.m // self.copies
-        return np.arange(1, cusps) / cusps
+        return np.arange(1, self.arcs()) / self.arcs()
+
+    def arcs(self) -> int:
+        """One from each cusp to the next."""
+        return self.m // self.copies
 
     def turns(self) -> Array:
         """The angles of the copies."""

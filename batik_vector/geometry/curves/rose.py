@@ -57,6 +57,10 @@ class Rose(Curve):
         """Every passage through the centre."""
         return np.arange(1, self.petals) / self.petals
 
+    def arcs(self) -> int:
+        """One for each petal."""
+        return self.petals
+
     def loops(self) -> list[tuple[float, float]]:
         """One ring per petal."""
         edges = np.arange(self.petals + 1) / self.petals

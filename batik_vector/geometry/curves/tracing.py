@@ -138,8 +138,11 @@ def _sample(curve: Curve, tolerance: float | Callable[[Points], Array]) -> tuple
         return points_at(curve, t)
 
     fine = tolerance if callable(tolerance) else tolerance * REFINE_SHARE
-    _, t = refine(evaluate, np.zeros(len(starts) - 1, np.intp), starts[:-1], starts[1:], fine)
-    t = np.append(t, 1.0)
+    # A tolerance told place by place is another one on each arc.
+    arcs = 1 if callable(tolerance) else curve.arcs()
+    first = starts[: (len(starts) - 1) // arcs + 1]
+    _, t = refine(evaluate, np.zeros(len(first) - 1, np.intp), first[:-1], first[1:], fine)
+    t = np.append((t + np.arange(arcs)[:, None] / arcs).ravel(), 1.0)
     points = points_at(curve, t)
     if not _size(points):
         raise GeometryError(f"{type(curve).__name__}: at(t) is the same point for every t, expected a line")

@@ -182,3 +182,15 @@ def test_closed_curves_close_and_are_drawn_once(curve: Curve) -> None:
 def test_a_finer_tolerance_costs_the_root_of_it() -> None:
     counts = [len(trace(Rose(4), 10.0**-k).strands[0]) for k in (3, 5)]
     assert 8 < counts[1] / counts[0] < 12
+
+
+@pytest.mark.parametrize("curve", [each for each in EXAMPLES if each.arcs() > 1], ids=name_of)
+def test_arcs_that_are_alike_are_the_first_turned(curve: Curve) -> None:
+    t = np.linspace(0, 1 / curve.arcs(), 50, endpoint=False)
+    first = curve.at(t) @ [1, 1j]
+    for number in range(1, curve.arcs()):
+        arc = curve.at(t + number / curve.arcs()) @ [1, 1j]
+        turn = arc[25] / first[25]
+        assert abs(turn) == pytest.approx(1)
+        assert np.abs(arc - turn * first).max() < 1e-9
+        assert np.isclose(curve.breaks(), number / curve.arcs(), rtol=0, atol=1e-15).any()
