@@ -22,9 +22,9 @@ class Curve:
     """A plane curve drawn once by ``at(t)`` for t in [0, 1].
 
     Curves are frozen dataclasses: comparable values whose fields carry their bounds. A new one
-    implements :meth:`at`, and where it has them :meth:`breaks`, :meth:`arcs`, :meth:`loops` and :meth:`turns`;
-    or :meth:`outline`. Who has a function, points or a path needs no class: :meth:`from_function`,
-    :meth:`from_points` and :meth:`from_path` make a curve of it.
+    implements :meth:`at`, and where it has them :meth:`breaks`, :meth:`arcs`, :meth:`loops` and
+    :meth:`turns`; or :meth:`outline`. Who has a function, points or a path needs no class:
+    :meth:`from_function`, :meth:`from_points` and :meth:`from_path` make a curve of it.
 
     A ``closed`` curve that ends elsewhere than it begins is closed by a straight edge.
     """
