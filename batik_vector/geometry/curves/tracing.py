@@ -131,27 +131,21 @@ def _outlined(curve: Curve, outline: Outline, tolerance: float | Callable[[Point
 def _sample(curve: Curve, tolerance: float | Callable[[Points], Array]) -> tuple[Array, Points]:
     """Return the parameters and points of the vertices of a curve, from t = 0 to 1."""
     knots = knots_of(curve)
-    # A few pieces to begin with between breaks, so that no bump hides between the probes.
-    starts = _subdivide(knots, 8 if len(knots) > 8 else 32)
-
-    def evaluate(_: Indices, t: Array) -> Points:
-        return points_at(curve, t)
-
-    fine = tolerance if callable(tolerance) else tolerance * REFINE_SHARE
     # A tolerance told place by place is another one on each arc.
     arcs = 1 if callable(tolerance) else curve.arcs()
-    first = starts[: (len(starts) - 1) // arcs + 1]
-    _, t = refine(evaluate, np.zeros(len(first) - 1, np.intp), first[:-1], first[1:], fine)
-    t = np.append((t + np.arange(arcs)[:, None] / arcs).ravel(), 1.0)
+    t = _refined(curve, knots, arcs, tolerance if callable(tolerance) else tolerance * REFINE_SHARE)
+    arc = slice(0, len(t) // arcs + 1)
     points = points_at(curve, t)
     if not _size(points):
         raise GeometryError(f"{type(curve).__name__}: at(t) is the same point for every t, expected a line")
-    _refuse_jumps(curve, t, points)
+    _refuse_jumps(curve, t[arc], points[arc])
     if callable(tolerance):
         return t, points
     given = np.zeros(len(t), bool)
     given[np.searchsorted(t, knots)] = True
-    keep = thin(points, np.array([0, len(points)], np.intp), tolerance * (1 - REFINE_SHARE), given)
+    ends = np.array([0, arc.stop], np.intp)
+    kept_of_arc = thin(points[arc], ends, tolerance * (1 - REFINE_SHARE), given[arc])
+    keep = np.append(np.tile(kept_of_arc[:-1], arcs), True)
     fixed = np.zeros(len(t), bool)
     loops = curve.loops()
     for loop in loops:
@@ -164,6 +158,19 @@ def _sample(curve: Curve, tolerance: float | Callable[[Points], Array]) -> tuple
     fixed[[0, -1]] = not (curve.closed and loops == [(0.0, 1.0)])
     kept = _bending(points, np.flatnonzero(keep), fixed)
     return t[kept], points[kept]
+
+
+def _refined(curve: Curve, knots: Array, arcs: int, tolerance: float | Callable[[Points], Array]) -> Array:
+    """Return the parameters of a dense polyline, from t = 0 to 1: those of the first arc, arc by arc."""
+    # A few pieces to begin with between breaks, so that no bump hides between the probes.
+    starts = _subdivide(knots, 8 if len(knots) > 8 else 32)
+    first = starts[: (len(starts) - 1) // arcs + 1]
+
+    def evaluate(_: Indices, t: Array) -> Points:
+        return points_at(curve, t)
+
+    _, t = refine(evaluate, np.zeros(len(first) - 1, np.intp), first[:-1], first[1:], tolerance)
+    return np.append((t + np.arange(arcs)[:, None] / arcs).ravel(), 1.0)
 
 
 def _subdivide(knots: Array, parts: int) -> Array:
