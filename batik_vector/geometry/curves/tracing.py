@@ -134,7 +134,7 @@ def _sample(curve: Curve, tolerance: float | Callable[[Points], Array]) -> tuple
     # A tolerance told place by place is another one on each arc.
     arcs = 1 if callable(tolerance) else curve.arcs()
     t = _refined(curve, knots, arcs, tolerance if callable(tolerance) else tolerance * REFINE_SHARE)
-    arc = slice(0, len(t) // arcs + 1)
+    arc = slice(0, (len(t) - 1) // arcs + 1)
     points = points_at(curve, t)
     if not _size(points):
         raise GeometryError(f"{type(curve).__name__}: at(t) is the same point for every t, expected a line")
