@@ -53,9 +53,9 @@ BUDGETS = Budgets(
         # Points of a curve evaluated for each vertex drawn: a polyline seven times as dense is thinned, and
         # each of its chords was probed in three places, in rounds.
         "evaluations per vertex, superellipse": 59,
-        "evaluations per vertex, rose": 79,
+        "evaluations per vertex, rose": 31,  # of one arc, which stands for all
         "evaluations per vertex, petal": 52,
-        "evaluations per vertex, hypocycloid": 55,
+        "evaluations per vertex, hypocycloid": 12,
         "evaluations per vertex, circle": 72,
         "evaluations per vertex, blade": 90,
         "evaluations per vertex, butterfly": 81,
