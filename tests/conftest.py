@@ -4,12 +4,16 @@ import contextlib
 import os
 import signal
 import zlib
+from pathlib import Path
 
 import pytest
 from hypothesis import settings
 
 KINDS = 8
 """Parameter sets up to which ``--few`` leaves a test alone: so many are kinds of things, more are samples."""
+
+ALONE = "\npytestmark = pytest.mark.clients\n"
+"""How a file says that all of it is for other programs."""
 
 # How long one example takes says more of the machine than of the code.
 settings.register_profile("here", deadline=None)
@@ -43,6 +47,14 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         default=1,
         help="run one test in N: which ones, hangs on their names",
     )
+
+
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    """Leave out what is for other programs alone, where they are not asked for: it takes seconds to import."""
+    if collection_path.parent.name != "clients" or "not clients" not in config.option.markexpr:
+        return None
+    alone = collection_path.suffix == ".py" and ALONE in collection_path.read_text(encoding="utf-8")
+    return alone or None
 
 
 # After what is chosen by marks.
