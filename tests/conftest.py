@@ -50,7 +50,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
-    """Leave out what is for other programs alone, where they are not asked for: it takes seconds to import."""
+    """Leave out what is for other programs alone, where they are not asked for: it is slow to import."""
     if collection_path.parent.name != "clients" or "not clients" not in config.option.markexpr:
         return None
     alone = collection_path.suffix == ".py" and ALONE in collection_path.read_text(encoding="utf-8")
