@@ -51,4 +51,6 @@ def _chosen(each: Any, number: int, step: int) -> bool:
 
 
 def _slow(each: Any) -> Any:
+    if isinstance(each, type(pytest.param())):
+        return pytest.param(*each.values, marks=[*each.marks, slow], id=each.id)
     return pytest.param(*(each if isinstance(each, tuple) else (each,)), marks=slow)
