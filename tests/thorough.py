@@ -3,7 +3,7 @@
     @long
     @settings(max_examples=examples(100, 1000))
 
-A test marked so runs in both. ``make test-long LONG=3`` tries three times as many, ``LONG=0.25`` fewer, as
+A test marked so runs in both. ``make test-long LONG=3`` tries three times as many, ``LONG=0.2`` fewer, as
 `.ci/run` does.
 
     @pytest.mark.parametrize("name", rarely(SAMPLES, 3))
