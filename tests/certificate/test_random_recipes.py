@@ -10,7 +10,7 @@ from batik_vector.errors import RecipeError
 from batik_vector.making.promised import asked_group
 from batik_vector.recipe.loading import read_recipe
 from tests.random_recipes import recipe_text
-from tests.thorough import examples, long, rarely
+from tests.thorough import examples, rarely, slow
 from tests.tiling.test_seamless import NO_TILE, TOO_MUCH
 
 STRIPS = (324, 844, 1182)
@@ -54,7 +54,7 @@ def test_strips_and_crumbs_are_no_longer_left(number: int) -> None:
     passes(number)
 
 
-@long
+@slow
 @pytest.mark.parametrize("number", [*MORE, *BESIDE, *HOLES, *ROUNDED, *DOUBLED, *SPREAD][: examples(1, 40)])
 def test_everyday_recipes_pass(number: int) -> None:
     passes(number)

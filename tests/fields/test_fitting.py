@@ -56,6 +56,7 @@ from batik_vector.recipe.motif import MOTIFS, Core, Dress, Leaf, Petals, Pistil,
 from batik_vector.recipe.outputs import OUTPUTS
 from batik_vector.tiling.layouts import LAYOUTS, Lattice, MapSpec, Places, Ring, Spot, Term
 from batik_vector.tiling.symmetry.machine_fit import Fit
+from tests.thorough import rarely
 
 SQUARE = shapely.box(1, 1, 4, 4)
 WRONG: list[Any] = [
@@ -216,7 +217,7 @@ def trials() -> Iterator[Any]:
 
 
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")
-@pytest.mark.parametrize(("cls", "name"), list(trials()))
+@pytest.mark.parametrize(("cls", "name"), rarely(list(trials()), 3))
 def test_a_class_takes_what_it_is_given_or_says_what_it_expected(cls: Any, name: str) -> None:
     sound = BY_HAND.get(cls, {})
     used(cls(**sound))

@@ -15,7 +15,7 @@ from batik_vector.recipe.loading import load_recipe
 from batik_vector.tiling.torus.torus import Window
 from batik_vector.tiling.welding.needles import LONG, needled, without_needles
 from batik_vector.units import STEPS_PER_MM
-from tests.thorough import examples, long
+from tests.thorough import examples, long, slow
 
 WINDOW = Window(0, 0, 100_000, 80_000)
 SAMPLES = Path(__file__).resolve().parents[3] / "samples"
@@ -110,6 +110,7 @@ def test_two_marks_that_cross_leave_nothing_but_needles_out(seed: int) -> None:
     assert all(a.equals(b) for a, b, same in zip(areas, found, wide, strict=True) if same)
 
 
+@slow
 def test_no_needle_is_left_in_a_sample_that_had_hundreds() -> None:
     artwork = compile_recipe(load_recipe(SAMPLES / "five-circle.toml"))
     for layer in artwork.layers:
