@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -13,6 +13,7 @@ from batik_vector.studio.page.parts import icon_button, menu_row, text, toggled
 
 if TYPE_CHECKING:
     from batik_vector.studio.drafts import Draft
+    from batik_vector.studio.page.session import Session
 
 WRITTEN = ""
 """No colourway: the colours that the recipe has."""
@@ -34,25 +35,20 @@ def _colours(spec: Mapping[str, Any]) -> tuple[str, ...]:
 class Colours:
     """A button with the menu; it stays pressed while other colours than the recipe's are looked at."""
 
-    def __init__(self, look: Callable[[str], None]) -> None:
-        """Draw it.
-
-        Args:
-            look: called with the colourway that is chosen, or palette; ``WRITTEN`` for the recipe's own.
-        """
-        self.name = WRITTEN
-        self._look = look
+    def __init__(self, session: Session) -> None:
+        """Draw it; what is chosen is the session's, and the same in all its tabs."""
+        self._session = session
         self._known: Mapping[str, tuple[str, ...]] | None = None
         with icon_button("palette", "Colours", lambda: None) as self._button:
             self._menu = ui.menu().props('role=menu auto-close aria-label="Colours"')
 
-    def refresh(self, draft: Draft) -> None:
-        """List what a draft offers; a colourway that it no longer has is left."""
-        if draft.faults:
+    def refresh(self) -> None:
+        """List what is open offers; a colourway that it no longer has is left."""
+        if self._session.draft.faults:
             return
-        known = colourways(draft)
-        if self.name and self.name not in (*known, *PALETTES):
-            self.name = WRITTEN
+        known = colourways(self._session.draft)
+        if self._session.colourway not in (WRITTEN, *known, *PALETTES):
+            self._session.colourway = WRITTEN
         if known != self._known:
             self._known = known
             self._list(known)
@@ -61,20 +57,16 @@ class Colours:
     def _list(self, known: Mapping[str, tuple[str, ...]]) -> None:
         self._menu.clear()
         with self._menu:
-            menu_row(AS_WRITTEN, partial(self._choose, WRITTEN))
+            menu_row(AS_WRITTEN, partial(self._session.look_in, WRITTEN))
             for name, colours in known.items():
-                menu_row(name, partial(self._choose, name), colours)
+                menu_row(name, partial(self._session.look_in, name), colours)
             ui.separator()
             text("Palettes", "quiet small menu-head")
             for name in PALETTES:
                 if name not in known:
-                    menu_row(name, partial(self._choose, name))
-
-    def _choose(self, name: str) -> None:
-        self.name = name
-        self._mark()
-        self._look(name)
+                    menu_row(name, partial(self._session.look_in, name))
 
     def _mark(self) -> None:
-        toggled(self._button, bool(self.name))
-        self._button.props(f'aria-label="Colours: {self.name or AS_WRITTEN}"')
+        name = self._session.colourway
+        toggled(self._button, bool(name))
+        self._button.props(f'aria-label="Colours: {name or AS_WRITTEN}"')

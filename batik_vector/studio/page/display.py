@@ -116,7 +116,7 @@ class Display:
             self.views[name] = word_button(label, lambda name=name: self.look(name))
         self._mark_view()
         group("space")
-        self.colours = Colours(self._colour)
+        self.colours = Colours(self.session)
         self._switch("lines", "polyline", "Lines instead of cloth and wax")
         self._switch("guides", "grid_4x4", "Seam guides")
         self._switch("pins", "push_pin", "Pointers of the certificate")
@@ -146,10 +146,6 @@ class Display:
 
         button = icon_button(icon, label, press)
         toggled(button, self._on[name])
-
-    def _colour(self, name: str) -> None:
-        self.session.colourway = name
-        self.refresh()
 
     def look(self, view: str) -> None:
         """Look at the draft in another way."""
@@ -191,8 +187,8 @@ class Display:
         """Ask for a picture of what is open now; of several wishes the newest counts."""
         self._begin_with()
         rough = self.session.held and self._slow
-        self.colours.refresh(self.session.draft)
-        draft, view = self.session.draft, View(self.view, rough=rough, colourway=self.colours.name)
+        self.colours.refresh()
+        draft, view = self.session.draft, View(self.view, rough=rough, colourway=self.session.colourway)
         if self._wanted != (draft, view, self.session.saves):
             self._wanted = draft, view, self.session.saves
             background_tasks.create(self._ask(draft, view))
@@ -202,9 +198,8 @@ class Display:
     async def _ask_alone(self, draft: Draft, motif: str) -> None:
         """Show the motif whose slider moves by itself: it is there before the pattern is."""
         lane = f"{self.client.id}\0motif"
-        picture = await self.session.images.ask(
-            draft, View(motif=motif, colourway=self.colours.name), lane=lane
-        )
+        view = View(motif=motif, colourway=self.session.colourway)
+        picture = await self.session.images.ask(draft, view, lane=lane)
         if picture is None or not picture.svg or self.client.is_deleted:
             return
         # What is drawn exactly by now need not be seen in part.

@@ -62,7 +62,7 @@ class Session:
         self.motif_held = ""
         """The motif whose slider was moved last, or nothing where it was not a motif's."""
         self.colourway = ""
-        """The colourway, or palette, in which it was last looked at; nothing for its own colours."""
+        """The colourway, or palette, in which it is looked at; nothing for its own colours."""
         self.held = False
         """Whether a slider is in somebody's hand, and another value is about to come."""
         self._listeners: list[Callable[[], None]] = []
@@ -141,6 +141,11 @@ class Session:
 
     def _tell(self) -> None:
         call(self._listeners)
+
+    def look_in(self, colourway: str) -> None:
+        """Look at it in the colours of a colourway or a palette; nothing for its own."""
+        self.colourway = colourway
+        self._tell()
 
     # Changes.
 
